@@ -1,0 +1,355 @@
+"""Tests the page of `microtrace view` in Chromium.
+
+usage: page_test.py PROGRAM SOURCE_FOLDER [unittest options]
+
+MICROTRACE_TURNS=SECONDS turns the camera for that time and checks that memory doesn't grow (default: 5 s).
+MICROTRACE_SCREENSHOTS=FOLDER keeps screenshots.
+"""
+
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+from viewer import Viewer, read_png, wait_until
+
+PROGRAM, SOURCE = os.path.abspath(sys.argv[1]), Path(sys.argv[2]).absolute()
+SCENES = SOURCE / "scenes"
+TURNS = float(os.environ.get("MICROTRACE_TURNS", "5"))
+SCREENSHOTS = os.environ.get("MICROTRACE_SCREENSHOTS")
+# The policy of the page forbids scripts as text, so that functions are passed.
+PIXELS = "canvas => Array.from(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data)"
+
+
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        playwright = sync_playwright().start()
+        cls.addClassCleanup(playwright.stop)
+        path = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+        # Containers run as root, for which Chromium has no sandbox.
+        cls.browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        cls.addClassCleanup(cls.browser.close)
+
+    def setUp(self):
+        self.complaints = []
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def viewer(self, *arguments):
+        viewer = Viewer(PROGRAM, *arguments)
+        self.addCleanup(viewer.__exit__)
+        return viewer
+
+    def open(self, viewer, **options):
+        context = self.browser.new_context(viewport={"width": 1280, "height": 900}, **options)
+        self.addCleanup(context.close)
+        page = context.new_page()
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("request", lambda request: self.complaints.append(request.url)
+                if not request.url.startswith((viewer.address, "data:", "blob:")) else None)
+        page.goto(viewer.address)
+        self.wait_done(page)
+        return page
+
+    def wait_done(self, page, state="done"):
+        page.wait_for_selector(f"body[data-state={state}]", timeout=60000)
+
+    def change(self, page, action):
+        """Carries out an action and waits until the picture that it requests is done."""
+        before = int(page.get_attribute("body", "data-request"))
+        action()
+        wait_until(lambda: int(page.get_attribute("body", "data-request")) > before
+                   and page.get_attribute("body", "data-state") == "done", 60)
+
+    def keep(self, page, name):
+        if SCREENSHOTS:
+            page.screenshot(path=f"{SCREENSHOTS}/{name}.png")
+
+    def words(self, page):
+        """The words of the command line that the page shows, after the scene's name."""
+        import shlex
+        return shlex.split(page.inner_text("#command"))[2:]
+
+    def drawn_by_program(self, scene, words):
+        result = subprocess.run([PROGRAM, scene, *words, "-o", self.folder / "expected.png", "-q"], capture_output=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return read_png((self.folder / "expected.png").read_bytes())
+
+    def assert_shows(self, page, scene, canvas="#picture"):
+        """The canvas has the pixels of the picture that the command line draws."""
+        width, height, expected = self.drawn_by_program(scene, self.words(page))
+        shown = bytes(page.eval_on_selector(canvas, PIXELS))
+        self.assertEqual(len(shown), 4 * width * height)
+        if len(expected) == 3 * width * height:
+            shown = b"".join(shown[i:i + 3] for i in range(0, len(shown), 4))
+        self.assertEqual(shown, expected)
+
+    def tearDown(self):
+        self.assertEqual(self.complaints, [])
+
+    def test_opens_and_turns(self):
+        scene = SCENES / "perspective1.json"
+        page = self.open(self.viewer(scene))
+        self.assert_shows(page, scene)
+        self.keep(page, "opened")
+        box = page.locator("#picture").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+        def drag(dx, dy, shift=False):
+            def action():
+                if shift:
+                    page.keyboard.down("Shift")
+                page.mouse.move(x, y)
+                page.mouse.down()
+                for step in range(1, 6):
+                    page.mouse.move(x + dx * step / 5, y + dy * step / 5)
+                page.mouse.up()
+                if shift:
+                    page.keyboard.up("Shift")
+            self.change(page, action)
+
+        eyes = [None]
+        for action in (lambda: drag(120, 40), lambda: drag(60, -80, shift=True),
+                       lambda: self.change(page, lambda: page.mouse.wheel(0, 300)),
+                       lambda: self.change(page, lambda: page.keyboard.press("ArrowLeft")),
+                       lambda: self.change(page, lambda: page.keyboard.press("Shift+ArrowUp")),
+                       lambda: self.change(page, lambda: page.keyboard.press("+"))):
+            action()
+            page.wait_for_timeout(300)  # the wheel ends 150 ms after its last step
+            self.wait_done(page)
+            words = self.words(page)
+            self.assertEqual(words[::2][:2], ["--eye", "--target"])
+            self.assertNotEqual(words[1], eyes[-1])
+            eyes.append(words[1])
+            self.assert_shows(page, scene)
+        self.keep(page, "turned")
+        self.change(page, lambda: page.keyboard.press("f"))
+        self.assertEqual(self.words(page), [])
+        self.assert_shows(page, scene)
+        # Turning there and back again leads to the first picture.
+        self.change(page, lambda: page.keyboard.press("ArrowRight"))
+        self.change(page, lambda: page.keyboard.press("ArrowLeft"))
+        eye = [float(number) for number in self.words(page)[1].split(",")]
+        for number, expected in zip(eye, (0, 0, 10), strict=True):
+            self.assertAlmostEqual(number, expected, 5)
+
+    def test_controls(self):
+        scene = SCENES / "gltf/materials.glb"
+        page = self.open(self.viewer(scene, "--size", "80x60", "--spp", "4"))
+        self.assertEqual(self.words(page), ["--size", "80x60", "--spp", "4"])
+        self.assert_shows(page, scene)
+        for selector, value in (("#spp", "6"), ("[data-option='--env']", "#80a0ff"), ("[data-option='--background']", "env"),
+                                ("[data-option='--env-intensity']", "2"), ("[data-option='--max-depth']", "3"), ("#width", "90")):
+            def fill(selector=selector, value=value):
+                page.fill(selector, value)
+                page.press(selector, "Enter")
+                page.locator(selector).blur()
+            self.change(page, fill)
+            self.assertIn(value, " ".join(self.words(page)))
+            self.assert_shows(page, scene)
+        for selector, value in (("[data-option='--exposure']", "1.5"), ("[data-option='--env-rotation']", "-40")):
+            self.change(page, lambda selector=selector, value=value: page.locator(selector).fill(value))
+            self.wait_done(page)
+            self.assert_shows(page, scene)
+        for selector, value in (("#tonemap", "agx"), ("#camera", "--view top")):
+            self.change(page, lambda selector=selector, value=value: page.select_option(selector, value))
+            self.assert_shows(page, scene)
+        self.change(page, lambda: page.fill("[data-option='--background']", "") or page.locator("[data-option='--background']").blur())
+        for name in ("flat", "depth", "normal", "uv", "id", "albedo", "variance"):
+            if name == "flat":  # a single sample suits all exact quantities
+                self.change(page, lambda: page.fill("#spp", "") or page.locator("#spp").blur())
+            self.change(page, lambda name=name: page.select_option("#integrator", name))
+            if name == "variance":
+                self.assertIn("--aov variance", " ".join(self.words(page)))
+            else:
+                self.assert_shows(page, scene)
+
+    def test_animation(self):
+        scene = SCENES / "gltf/moving.glb"
+        page = self.open(self.viewer(scene, "--size", "80x60", "--spp", "2"))
+        self.assertTrue(page.is_visible("#animation-section"))
+        self.change(page, lambda: page.locator("#time").fill("0.5"))
+        self.wait_done(page)
+        self.assertIn("--time 0.5", " ".join(self.words(page)))
+        self.assert_shows(page, scene)
+        page.click("#play")
+        page.wait_for_timeout(1000)
+        page.click("#play")
+        page.wait_for_timeout(300)
+        self.wait_done(page)
+        self.assert_shows(page, scene)
+
+    def test_pixels_are_explained_as_by_the_program(self):
+        for name in ("perspective1.json", "gltf/textures.glb"):
+            scene = SCENES / name
+            page = self.open(self.viewer(scene, "--spp", "1"))
+            choices = random.Random(name)
+            for _ in range(6):
+                x, y = choices.randrange(640), choices.randrange(480)
+                expected = json.loads(subprocess.run([PROGRAM, "explain", scene, "--pixel", f"{x},{y}", "--json"], capture_output=True).stdout)
+                box = page.locator("#picture").bounding_box()
+                page.mouse.click(box["x"] + (x + 0.5) * box["width"] / 640, box["y"] + (y + 0.5) * box["height"] / 480)
+                pixel = f"{x + 0.5}, {y + 0.5}"
+                wait_until(lambda pixel=pixel: pixel in page.inner_text("#explanation"))
+                hits = page.locator("#explanation details[data-t]")
+                shown = [(float(hit.get_attribute("data-t")), hit.get_attribute("data-verdict")) for hit in hits.all()]
+                self.assertEqual(shown, [(hit["t"], hit["verdict"]) for hit in expected["hits"]])
+                if expected["visible"] is not None:
+                    self.assertIn(f"Hit {expected['visible'] + 1} is visible.", page.inner_text("#explanation"))
+            # The same by the keyboard alone.
+            page.fill("#x", "320")
+            page.fill("#y", "240")
+            page.press("#y", "Enter")
+            wait_until(lambda page=page: "320.5, 240.5" in page.inner_text("#explanation"))
+            self.keep(page, f"explained-{scene.stem}")
+
+    def test_comparison(self):
+        scene = SCENES / "perspective1.json"
+        page = self.open(self.viewer(scene))
+        page.click("#compare")
+        wait_until(lambda: "equal" in page.inner_text("#difference-text"))
+        page.select_option("#integrator", "albedo")
+        wait_until(lambda: "--integrator albedo" in page.inner_text("#command"))
+        page.wait_for_timeout(500)
+        self.wait_done(page)
+        self.assert_shows(page, scene, "#other")
+        a, b = self.drawn_by_program(scene, []), self.drawn_by_program(scene, ["--integrator", "albedo"])
+        differing = [i // 3 for i in range(0, len(a[2]), 3) if a[2][i:i + 3] != b[2][i:i + 3]]
+        text = page.inner_text("#difference-text")
+        if differing:
+            self.assertIn(f"{len(differing)} pixels differ", text)
+        else:
+            self.assertIn("equal", text)
+        page.select_option("#integrator", "depth")
+        wait_until(lambda: "differ" in page.inner_text("#difference-text"))
+        b = self.drawn_by_program(scene, ["--integrator", "depth"])
+        first = next(i // 3 for i in range(0, len(a[2]), 3) if a[2][i:i + 3] != b[2][i:i + 3])
+        place = f"{first % 640},{first // 640}"
+        wait_until(lambda: f"the first is {place}" in page.inner_text("#difference-text"))
+        page.click("#ask-first")
+        wait_until(lambda: "Right picture" in page.inner_text("#explanation"))
+        page.locator("#wiper").fill("30")
+        page.check("#difference")
+        self.assertTrue(page.is_visible("#difference-picture"))
+        self.keep(page, "difference")
+        page.uncheck("#difference")
+        self.keep(page, "comparison")
+        page.click("#compare")
+        self.assertFalse(page.is_visible("#other"))
+
+    def test_two_scenes(self):
+        page = self.open(self.viewer(SCENES / "perspective1.json", "--compare", SCENES / "perspective2.json"))
+        wait_until(lambda: "differ" in page.inner_text("#difference-text"))
+        page.select_option("#side", "1")
+        self.assert_shows(page, SCENES / "perspective2.json", "#other")
+
+    def test_file_changes_and_errors(self):
+        scene = self.folder / "scene.json"
+        shutil.copy(SCENES / "perspective1.json", scene)
+        text = scene.read_text()
+        page = self.open(self.viewer(scene))
+        before = page.eval_on_selector("#picture", PIXELS)
+        scene.write_text(text.replace('"radius"', '"radiu"', 1))
+        page.wait_for_selector("#error:not([hidden])", timeout=20000)
+        self.assertIn("^", page.inner_text("#error"))
+        self.assertRegex(page.inner_text("#error"), r"scene\.json:\d+:\d+: /objects")
+        self.assertEqual(page.eval_on_selector("#picture", PIXELS), before)  # the last good picture stays
+        self.keep(page, "error")
+        scene.write_text(re.sub(r'"radius": 2,', '"radius": 0.5,', text))
+        wait_until(lambda: not page.is_visible("#error"))
+        self.wait_done(page)
+        self.assert_shows(page, scene)
+        self.assertNotEqual(page.eval_on_selector("#picture", PIXELS), before)
+        # A refused option doesn't end the page either.
+        page.fill("[data-option='--background']", "blau")
+        page.locator("[data-option='--background']").blur()
+        page.wait_for_selector("#error:not([hidden])")
+        self.assertIn("--background", page.inner_text("#error"))
+        self.change(page, lambda: page.fill("[data-option='--background']", "#0000ff") or page.locator("[data-option='--background']").blur())
+        self.assertFalse(page.is_visible("#error"))
+        self.assert_shows(page, scene)
+
+    def test_reload_and_two_pages(self):
+        viewer = self.viewer(SCENES / "perspective1.json")
+        first, second = self.open(viewer), self.open(viewer)
+        self.change(first, lambda: first.select_option("#integrator", "normal"))
+        self.change(second, lambda: second.select_option("#camera", "--view top"))
+        self.assert_shows(first, SCENES / "perspective1.json")
+        self.assert_shows(second, SCENES / "perspective1.json")
+        for _ in range(12):  # more than the server keeps pictures
+            first.reload()
+            self.wait_done(first)
+        self.assert_shows(first, SCENES / "perspective1.json")
+        self.change(second, lambda: second.select_option("#camera", "--view front"))
+        self.assert_shows(second, SCENES / "perspective1.json")
+
+    def test_warnings_are_listed(self):
+        with self.subTest("a scene with warnings"):
+            scene = self.folder / "scene.gltf"
+            asset = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "extensionsUsed": ["VENDOR_unknown"]}
+            scene.write_text(json.dumps(asset))
+            page = self.open(self.viewer(scene, "--size", "16x16", "--spp", "1"))
+            self.assertIn("VENDOR_unknown", page.inner_text("#warnings"))
+            self.assertIn("/extensionsUsed", page.inner_text("#warnings"))
+
+    def test_saves_and_copies(self):
+        scene = SCENES / "gltf/cube.glb"
+        page = self.open(self.viewer(scene, "--size", "60x40", "--spp", "4"), accept_downloads=True, permissions=["clipboard-read", "clipboard-write"])
+        for extension in ("png", "exr"):
+            page.select_option("#format", extension)
+            with page.expect_download() as download:
+                page.click("#save")
+            expected = self.folder / f"expected.{extension}"
+            subprocess.run([PROGRAM, scene, *self.words(page), "-o", expected, "-q"], check=True)
+            self.assertEqual(Path(download.value.path()).read_bytes(), expected.read_bytes())
+            self.assertEqual(download.value.suggested_filename, f"cube.{extension}")
+        page.click("#copy")
+        self.assertEqual(page.evaluate("() => navigator.clipboard.readText()"), page.inner_text("#command"))
+
+    def test_color_schemes(self):
+        viewer = self.viewer(SCENES / "sphere.json")
+        colors = [self.open(viewer, color_scheme=scheme).eval_on_selector("aside", "e => getComputedStyle(e).backgroundColor")
+                  for scheme in ("light", "dark")]
+        self.assertNotEqual(*colors)
+
+    def test_turning_needs_no_more_memory(self):
+        viewer = self.viewer(SCENES / "gltf/knot.glb")
+        page = self.open(viewer)
+        box = page.locator("#picture").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        choices = random.Random(1)
+        page.mouse.move(x, y)
+        page.mouse.down()
+        samples, end = [], time.monotonic() + TURNS
+        while time.monotonic() < end:
+            for _ in range(20):
+                page.mouse.move(x + choices.randint(-200, 200), y + choices.randint(-100, 100))
+                page.wait_for_timeout(10)
+            samples.append(viewer.memory())
+        page.mouse.up()
+        page.wait_for_timeout(300)
+        self.wait_done(page)
+        half = len(samples) // 2
+        print(f"turning for {TURNS} s: {min(samples) >> 20} to {max(samples) >> 20} MiB", file=sys.stderr)
+        self.assertLess(max(samples[half:]), max(samples[:half + 1]) + (16 << 20))
+
+    def test_end(self):
+        viewer = self.viewer(SCENES / "sphere.json")
+        page = self.open(viewer)
+        page.click("#end")
+        self.assertEqual(viewer.process.wait(timeout=20), 0)
+        wait_until(lambda: "ended" in page.inner_text("#status"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
