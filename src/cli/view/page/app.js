@@ -214,12 +214,15 @@ class Page {
   }
 
   shown(side) {
+    this.noteRevision(side.status.revision);
+    const isDone = this.sides.every(({ status }) => status?.done);
+    document.body.dataset.state = isDone ? "done" : "drawing";
+    if (side === this.side) this.#showStatus(side);
+    this.#showComparison();
+  }
+
+  #showStatus(side) {
     const { status } = side;
-    this.noteRevision(status.revision);
-    if (side !== this.side) {
-      this.#showComparison();
-      return;
-    }
     const { samples, of, seconds, camera } = status;
     const progress = status.done ? `${samples} ${samples === 1 ? "sample" : "samples"}, ${seconds.toFixed(2)} s` : `${status.preview ? 0 : samples} of ${of} samples`;
     byId("status").textContent = `${status.width} x ${status.height}, ${progress}`;
@@ -231,12 +234,9 @@ class Page {
     }
     byId("x").max = status.width - 1;
     byId("y").max = status.height - 1;
-    const isDone = this.sides.every(({ status: other }) => other?.done);
-    document.body.dataset.state = isDone ? "done" : "drawing";
     document.body.dataset.request = status.request;
     document.body.dataset.samples = samples;
     document.body.dataset.seconds = seconds;
-    this.#showComparison();
   }
 
   /** Reads the description of the scene again if its file has changed. */
