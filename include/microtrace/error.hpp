@@ -17,7 +17,8 @@ enum class ErrorKind {
   unsupported = 4,    ///< the scene requires an unsupported feature
   io = 5,             ///< a file can't be read or written
   limit = 6,          ///< a documented limit was exceeded
-  canceled = 7,       ///< a callback requested to stop; never an exit code of the program
+  canceled = 7,       ///< a callback requested to stop; never an exit code of the program,
+                      ///< whose code 7 means that compared pictures differ
 };
 
 enum class Severity {

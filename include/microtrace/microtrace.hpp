@@ -7,6 +7,7 @@
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
 #include <microtrace/checkpoint.hpp>
+#include <microtrace/compare.hpp>
 #include <microtrace/dataset.hpp>
 #include <microtrace/defaults.hpp>
 #include <microtrace/digest.hpp>

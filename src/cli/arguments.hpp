@@ -103,6 +103,12 @@ struct ExplainArguments {
   bool is_all = false;
 };
 
+struct CompareArguments {
+  std::vector<std::filesystem::path> pictures{};
+  double threshold = 0;
+  bool is_json = false;
+};
+
 struct ViewOptions {
   std::uint16_t port = 0;  ///< 0: any free port
   bool opens_browser = true;
@@ -160,6 +166,9 @@ struct Arguments {
 
   // For the command explain only:
   ExplainArguments explain{};
+
+  // For the command compare only:
+  CompareArguments compare{};
 
   // For the command view only:
   ViewOptions view{};

@@ -2,6 +2,7 @@
 
 #include "base/printable.hpp"
 #include "cli/arguments.hpp"
+#include "cli/compare.hpp"
 #include "cli/dataset/dataset.hpp"
 #include "cli/explain.hpp"
 #include "cli/merge.hpp"
@@ -120,15 +121,23 @@ void limit_run(const cli::Arguments& arguments) {
 /// A command that the user selects by its name as the first argument.
 struct NamedCommand {
   cli::Command command;
-  void (*run)(const cli::Arguments&);
+  int (*run)(const cli::Arguments&);  ///< returns the exit code
 };
 
+/// Calls a command that succeeds unless it throws.
+template <void (*command)(const cli::Arguments&)>
+int succeed(const cli::Arguments& arguments) {
+  command(arguments);
+  return 0;
+}
+
 constexpr std::array kNamedCommands{
-    NamedCommand{cli::Command::merge, cli::merge_samples},
-    NamedCommand{cli::Command::dataset, cli::write_dataset},
-    NamedCommand{cli::Command::verify, cli::verify_dataset},
-    NamedCommand{cli::Command::explain, cli::explain_ray},
-    NamedCommand{cli::Command::view, cli::view_scene},
+    NamedCommand{cli::Command::merge, succeed<cli::merge_samples>},
+    NamedCommand{cli::Command::dataset, succeed<cli::write_dataset>},
+    NamedCommand{cli::Command::verify, succeed<cli::verify_dataset>},
+    NamedCommand{cli::Command::explain, succeed<cli::explain_ray>},
+    NamedCommand{cli::Command::compare, cli::compare_files},
+    NamedCommand{cli::Command::view, succeed<cli::view_scene>},
 };
 
 }  // namespace
@@ -143,8 +152,7 @@ int cli::run_program(int argc, char** argv) {
     if (parsed.exit_code) return *parsed.exit_code;
     return exit_code_of([&] {
       limit_run(parsed.arguments);
-      named.run(parsed.arguments);
-      return 0;
+      return named.run(parsed.arguments);
     });
   }
   const cli::Parsed parsed = cli::parse_arguments(cli::Command::render, argc, argv);

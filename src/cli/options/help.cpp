@@ -17,6 +17,7 @@ Usage: microtrace [OPTIONS] SCENE
        microtrace dataset [OPTIONS] SCENE -o FOLDER
        microtrace verify [OPTIONS] FOLDER
        microtrace explain [OPTIONS] SCENE --pixel x,y
+       microtrace compare [OPTIONS] PICTURE PICTURE
        microtrace view [OPTIONS] SCENE
        microtrace completion bash|zsh|fish
 )";
@@ -42,6 +43,11 @@ Usage: microtrace explain [OPTIONS] SCENE --pixel x,y
        microtrace explain [OPTIONS] SCENE --ray ox,oy,oz,dx,dy,dz
 )";
 
+constexpr std::string_view kCompareUsage =
+    R"(microtrace compare: compares two pictures; the exit code is 7 if they differ
+Usage: microtrace compare [OPTIONS] PICTURE PICTURE
+)";
+
 constexpr std::string_view kViewUsage =
     R"(microtrace view: shows a scene on a page in the browser
 Usage: microtrace view [OPTIONS] SCENE
@@ -59,6 +65,8 @@ std::string_view usage_of(Command command) {
       return kVerifyUsage;
     case Command::explain:
       return kExplainUsage;
+    case Command::compare:
+      return kCompareUsage;
     case Command::view:
       return kViewUsage;
   }
@@ -67,8 +75,8 @@ std::string_view usage_of(Command command) {
 
 constexpr std::string_view kFooter = R"(
 Exit codes: 0 done, 1 internal error, 2 usage error, 3 invalid scene, 4 required feature
-            unsupported, 5 input or output error, 6 limit reached, 130 interrupted,
-            143 terminated.
+            unsupported, 5 input or output error, 6 limit reached, 7 pictures differ,
+            130 interrupted, 143 terminated.
 
 Examples:
   microtrace scenes/perspective1.json -o perspective1.ppm
@@ -132,6 +140,8 @@ std::string_view name_of(Command command) {
       return "verify";
     case Command::explain:
       return "explain";
+    case Command::compare:
+      return "compare";
     case Command::view:
       return "view";
   }

@@ -58,6 +58,12 @@ std::vector<OptionGroup> option_groups(Command command) {
             {"Running", rows(running_options(), "--strict", "--strict")},
             {"Messages and help", common_options()}};
   }
+  if (command == Command::compare) {
+    return {{"Comparison", compare_options()},
+            {"Conversion of floats to 8 bits", rows(display_options(), "--exposure", "--tonemap")},
+            {"Running", rows(running_options(), "--memory-limit", "--memory-limit")},
+            {"Messages and help", rows(common_options(), "--help", "--help")}};
+  }
   if (command == Command::view) {
     return {{"Page", view_options()},
             {"Picture", rows(picture_options(), "--size", "--aov")},

@@ -23,10 +23,11 @@ struct Arguments;
 
 /// The commands that take an option. All but `render` are selected by their name as the first
 /// argument.
-enum class Command { render, merge, dataset, verify, explain, view };
+enum class Command { render, merge, dataset, verify, explain, compare, view };
 
 inline constexpr std::array kCommands{Command::render, Command::merge,   Command::dataset,
-                                      Command::verify, Command::explain, Command::view};
+                                      Command::verify, Command::explain, Command::compare,
+                                      Command::view};
 
 /// The effect of an option on the samples of Monte Carlo integrators. Samples of several runs can
 /// be combined only if all options that change samples have the same values in these runs.
@@ -86,6 +87,7 @@ struct OptionGroup {
 [[nodiscard]] std::span<const Option> dataset_options();
 [[nodiscard]] std::span<const Option> verify_options();
 [[nodiscard]] std::span<const Option> explain_options();
+[[nodiscard]] std::span<const Option> compare_options();
 [[nodiscard]] std::span<const Option> view_options();
 
 /// Returns true if every row has names, a help text and a stated effect on samples.

@@ -64,7 +64,7 @@ using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* e
 /// The colors of a decoded picture.
 struct MicrotraceColors {
   std::uint32_t width, height;
-  std::uint32_t channels;   ///< 1: gray, 3: rgb
+  std::uint32_t channels;   ///< 1: gray, 3: rgb, 4: rgb and alpha as stored in the file
   MicrotraceNumber number;  ///< U8, U16 or F32
 };
 
@@ -77,7 +77,8 @@ struct MicrotraceColorSink {
   void (*complain)(void* context, const char* text);
 };
 
-/// Decodes the first picture of a file with this extension (lower case, no dot), without its alpha.
+/// Decodes the first picture of a file with this extension (lower case, no dot). Gray pictures are
+/// decoded without alpha.
 /// Returns 1 on success. Otherwise calls complain() and returns 0.
 using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, const char* extension,
                                        const MicrotraceColorSink* sink);
@@ -87,6 +88,6 @@ namespace microtrace::io {
 
 inline constexpr char kFindFormatName[] = "microtrace_find_format_v3";
 inline constexpr char kEncodeName[] = "microtrace_encode_v3";
-inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v1";
+inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v2";
 
 }  // namespace microtrace::io

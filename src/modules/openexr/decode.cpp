@@ -44,7 +44,7 @@ class MemoryFile : public Imf::IStream {
 };
 
 /// Returns the names of the color channels: R, G and B outside of layers, or of the first layer
-/// that has all three. For gray images, the name is Y or that of the only channel.
+/// that has all three, and A of the same layer if it exists. For gray images, the name is Y or that of the only channel.
 std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
   std::vector<std::string> layers{""};
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
@@ -52,9 +52,11 @@ std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
     if (name.ends_with(".R")) layers.push_back(name.substr(0, name.size() - 1));
   }
   for (const std::string& layer : layers) {
-    const std::vector<std::string> names{layer + "R", layer + "G", layer + "B"};
+    std::vector<std::string> names{layer + "R", layer + "G", layer + "B"};
     const auto is_there = [&](const std::string& name) { return channels.findChannel(name); };
-    if (std::ranges::all_of(names, is_there)) return names;
+    if (!std::ranges::all_of(names, is_there)) continue;
+    if (is_there(layer + "A")) names.push_back(layer + "A");
+    return names;
   }
   if (channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr)
     throw std::runtime_error("its colors are luminance and chroma; convert it to R, G and B");
@@ -99,7 +101,7 @@ void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_decode_colors_v1(
+__attribute__((visibility("default"))) int microtrace_decode_colors_v2(
     const void* bytes, std::size_t size, const char* /*extension*/,
     const MicrotraceColorSink* sink) {
   try {

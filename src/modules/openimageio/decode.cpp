@@ -67,7 +67,9 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   if (!reader->open(name, spec, config)) throw complaint(reader->geterror());
   if (spec.deep || spec.depth != 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
     throw std::runtime_error("it is no plain picture of two dimensions");
-  const int first = first_color(spec), count = spec.nchannels - first < 3 ? 1 : 3;
+  const int first = first_color(spec);
+  const bool has_alpha = spec.alpha_channel == first + 3 && spec.nchannels > first + 3;
+  const int count = spec.nchannels - first < 3 ? 1 : has_alpha ? 4 : 3;
   const MicrotraceColors colors{.width = static_cast<std::uint32_t>(spec.width),
                                 .height = static_cast<std::uint32_t>(spec.height),
                                 .channels = static_cast<std::uint32_t>(count),
@@ -83,7 +85,7 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_decode_colors_v1(
+__attribute__((visibility("default"))) int microtrace_decode_colors_v2(
     const void* bytes, std::size_t size, const char* extension, const MicrotraceColorSink* sink) {
   try {
     decode(bytes, size, extension, *sink);

@@ -1,8 +1,7 @@
 #include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "io/file.hpp"
-#include "io/image/module.hpp"
-#include "io/module_function.hpp"
+#include "io/image/decode/decode_colors.hpp"
 #include "scene/math/srgb.hpp"
 
 #include <microtrace/error.hpp>
@@ -10,10 +9,8 @@
 
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <limits>
 #include <new>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,98 +18,10 @@
 namespace microtrace {
 namespace {
 
-constexpr std::uint32_t kMaxSide = 65536;
-constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 27U;
-
-/// The samples of a file. Also stores failures, because exceptions must not propagate through the
-/// module's frames.
-struct Decoded {
-  std::optional<MicrotraceColors> colors{};
-  std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> samples{};
-  std::string complaint{};
-  bool is_too_large = false;
-  std::exception_ptr failure{};
-};
-
 struct CountedMap {
   RadianceMap map;
   MemoryAccount memory;
 };
-
-void* begin(void* context, const MicrotraceColors* colors) {
-  auto& decoded = *static_cast<Decoded*>(context);
-  const std::uint64_t pixels = std::uint64_t{colors->width} * colors->height;
-  decoded.colors = *colors;
-  decoded.is_too_large =
-      colors->width > kMaxSide || colors->height > kMaxSide || pixels > kMaxPixels;
-  if (decoded.is_too_large) return nullptr;
-  try {
-    const std::size_t count = pixels * colors->channels;
-    const std::size_t size = colors->number == kMicrotraceU8    ? 1
-                             : colors->number == kMicrotraceU16 ? 2
-                                                                : sizeof(float);
-    take_memory(count * size, "decoding an environment");
-    if (colors->number == kMicrotraceU8)
-      return decoded.samples.emplace<std::vector<std::uint8_t>>(count).data();
-    if (colors->number == kMicrotraceU16)
-      return decoded.samples.emplace<std::vector<std::uint16_t>>(count).data();
-    return decoded.samples.emplace<std::vector<float>>(count).data();
-  } catch (const std::bad_alloc&) {
-    decoded.is_too_large = true;
-    return nullptr;
-  } catch (const Error&) {
-    decoded.failure = std::current_exception();
-    return nullptr;
-  }
-}
-
-void complain(void* context, const char* text) {
-  try {
-    static_cast<Decoded*>(context)->complaint = text;
-  } catch (const std::bad_alloc&) {
-    static_cast<Decoded*>(context)->is_too_large = true;
-  }
-}
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension.empty() ? extension : extension.substr(1);
-}
-
-Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
-  const io::FormatModule& module = io::module_for(extension);
-  io::require_threads(module, path.string());
-  const io::ModuleFunction function = io::find_module_function(module.file, io::kDecodeColorsName);
-  if (function.address == nullptr) {
-    throw Error(ErrorKind::unsupported, path.string(),
-                function.complaint + "; install " + module.package + " and build the target " +
-                    module.target + ", or use an environment without a file");
-  }
-  Decoded decoded;
-  const MicrotraceColorSink sink{&decoded, begin, complain};
-  const auto decode = reinterpret_cast<MicrotraceDecodeColors>(function.address);
-  const bool is_decoded = decode(bytes.data(), bytes.size(), extension.c_str(), &sink) != 0;
-  if (decoded.failure) std::rethrow_exception(decoded.failure);
-  if (decoded.is_too_large) {
-    std::string message = "is too large for an environment";
-    if (decoded.colors) {
-      message += ", " + std::to_string(decoded.colors->width) + " x " +
-                 std::to_string(decoded.colors->height) + " pixels";
-    }
-    throw Error(ErrorKind::limit, path.string(),
-                message + "; at most 65536 a side and 2^27 together, as memory allows");
-  }
-  if (!is_decoded) {
-    throw Error(ErrorKind::io, path.string(),
-                "can't be decoded: " + decoded.complaint +
-                    "; an environment must be a latitude-longitude map such as .hdr or .exr");
-  }
-  return decoded;
-}
 
 /// Returns a table that converts all sRGB values of this integer type to linear light.
 template <class Number>
@@ -156,8 +65,12 @@ LoadedRadianceMap load_radiance_map(const std::filesystem::path& path, MemoryBud
   const FloatEnvironment environment;
   MemoryAccount work(memory);
   const MemoryScope scope(work);
-  const Decoded decoded = decode(io::read_regular_file(path, io::kMaxFileSize), path);
-  const MicrotraceColors& colors = *decoded.colors;
+  const io::DecodedColors decoded = io::decode_colors(
+      io::read_regular_file(path, io::kMaxFileSize), path,
+      {.what = "an environment",
+       .hint = "an environment must be a latitude-longitude map such as .hdr or .exr",
+       .otherwise = "use an environment without a file"});
+  const MicrotraceColors& colors = decoded.colors;
   RadianceMap map{.width = colors.width, .height = colors.height};
   MemoryAccount memory_of_map(memory);
   memory_of_map.take(std::uint64_t{colors.width} * colors.height * sizeof(Vec3),

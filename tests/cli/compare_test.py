@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Tests `microtrace compare`. OpenImageIO's idiff is the judge of the numbers.
+
+usage: compare_test.py PROGRAM SOURCE_FOLDER
+"""
+
+import json
+import random
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from program import ProgramTest
+
+SCENES = Path(sys.argv[2]).absolute() / "scenes"
+
+
+class Compare(ProgramTest):
+    def compare(self, *arguments, code=None):
+        result = self.run_program("compare", *arguments)
+        if code is not None:
+            self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        return result
+
+    def difference(self, *arguments, code=7):
+        return json.loads(self.compare(*arguments, "--json", code=code).stdout)
+
+    def draw(self, name, *arguments, scene="perspective1.json"):
+        result = self.run_program(SCENES / scene, "--size", "64x48", *arguments, "-o", name, "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def ppm(self, name, width, height, samples, maximum=255, text=False):
+        head = f"{'P3' if text else 'P6'}\n# a comment\n{width} {height}\n{maximum}\n".encode()
+        if text:
+            body = " ".join(map(str, samples)).encode() + b"\n"
+        else:
+            body = struct.pack(f">{len(samples)}{'B' if maximum < 256 else 'H'}", *samples)
+        (self.folder / name).write_bytes(head + body)
+
+    def test_formats_of_one_rendering_are_equal(self):
+        for extension in ("ppm", "png", "exr", "tif"):
+            self.draw(f"a.{extension}")
+        self.draw("ascii.ppm", "--ppm", "ascii")
+        names = ["a.ppm", "a.png", "a.exr", "a.tif", "ascii.ppm"]
+        for a in names:
+            for b in names:
+                result = self.compare(a, b, code=0)
+                self.assertEqual(result.stdout, b"equal\n")
+
+    def test_light_is_converted_as_in_pictures(self):
+        for alpha in ([], ["--background", "transparent"]):
+            for extension in ("png", "exr"):
+                self.draw(f"l.{extension}", "--spp", "4", "--exposure", "0.5", "--tonemap", "aces", *alpha, scene="gltf/materials.glb")
+            self.compare("l.png", "l.exr", "--exposure", "0.5", "--tonemap", "aces", code=0)
+            self.compare("l.exr", "l.png", "--exposure", "0.5", "--tonemap", "aces", code=0)
+            self.assertGreater(self.difference("l.png", "l.exr")["differing"], 1000)
+            self.compare("l.exr", "l.exr", code=0)
+
+    def test_alpha(self):
+        self.draw("opaque.png")
+        self.draw("alpha.png", "--background", "transparent")
+        difference = self.difference("opaque.png", "alpha.png")
+        self.assertEqual(difference["maximum"], 1)
+        self.draw("alpha.exr", "--background", "transparent")
+        self.compare("alpha.png", "alpha.exr", code=0)
+
+    def test_one_changed_sample(self):
+        choices = random.Random(1)
+        width, height = 31, 17
+        samples = [choices.randrange(256) for _ in range(3 * width * height)]
+        self.ppm("a.ppm", width, height, samples)
+        for _ in range(10):
+            at = choices.randrange(len(samples))
+            other = list(samples)
+            other[at] ^= 1 << choices.randrange(8)
+            self.ppm("b.ppm", width, height, other)
+            x, y = at // 3 % width, at // 3 // width
+            expected = abs(samples[at] - other[at]) / 255
+            for names in (("a.ppm", "b.ppm"), ("b.ppm", "a.ppm")):
+                d = self.difference(*names)
+                self.assertEqual((d["pixels"], d["differing"], d["first"]["at"], d["at_maximum"]), (width * height, 1, [x, y], [x, y]))
+                self.assertAlmostEqual(d["maximum"], expected, 6)
+                self.assertAlmostEqual(d["mean"], expected / len(samples), 9)
+                self.assertAlmostEqual(d["root_mean_square"], expected / len(samples)**0.5, 7)
+                values = d["first"]["values"]
+                self.assertAlmostEqual(values[0][at % 3] * 255, (samples if names[0] == "a.ppm" else other)[at], 4)
+            self.compare("a.ppm", "b.ppm", "--threshold", expected + 1e-6, code=0)
+            self.compare("a.ppm", "b.ppm", "--threshold", expected - 1e-6, code=7)
+
+    def test_sixteen_bits(self):
+        samples = [0, 257, 65535, 1000, 2000, 3000]
+        self.ppm("a.ppm", 2, 1, samples, 65535)
+        self.ppm("text.ppm", 2, 1, samples, 65535, text=True)
+        self.compare("a.ppm", "text.ppm", code=0)
+        self.ppm("b.ppm", 2, 1, [0, 1, 255, 4, 8, 12])
+        self.assertEqual(self.difference("a.ppm", "b.ppm")["first"]["at"], [1, 0])
+        self.ppm("c.ppm", 2, 1, [0, 1, 1, 0, 1, 1], 1)
+        self.ppm("d.ppm", 2, 1, [0, 255, 255, 0, 255, 255])
+        self.compare("c.ppm", "d.ppm", code=0)
+
+    @unittest.skipUnless(shutil.which("idiff"), "openimageio-tools")
+    def test_numbers_are_those_of_idiff(self):
+        self.draw("a.exr", "--spp", "2", scene="gltf/materials.glb")
+        self.draw("b.exr", "--spp", "2", "--seed", "7", scene="gltf/materials.glb")
+        self.draw("a.png", "--spp", "2", scene="gltf/materials.glb")
+        self.draw("b.png", "--spp", "2", "--seed", "7", scene="gltf/materials.glb")
+        for extension in ("exr", "png"):
+            d = self.difference(f"a.{extension}", f"b.{extension}")
+            judge = subprocess.run(["idiff", "-fail", "0", f"a.{extension}", f"b.{extension}"], cwd=self.folder, capture_output=True, text=True)
+            def figure(name, text=judge.stdout):
+                return float(re.search(name + r"\s*=\s*([\d.e+-]+)", text)[1])
+            self.assertAlmostEqual(d["mean"] / figure("Mean error"), 1, 3)
+            self.assertAlmostEqual(d["root_mean_square"] / figure("RMS error"), 1, 3)
+            self.assertAlmostEqual(d["maximum"] / figure("Max error"), 1, 3)
+            self.assertIn(f"@ ({d['at_maximum'][0]}, {d['at_maximum'][1]},", judge.stdout)
+
+    def test_difference_picture(self):
+        self.ppm("a.ppm", 2, 1, [10, 20, 30, 40, 50, 60])
+        self.ppm("b.ppm", 2, 1, [10, 25, 30, 0, 50, 61])
+        self.compare("a.ppm", "b.ppm", "-o", "d.ppm", code=7)
+        self.assertEqual((self.folder / "d.ppm").read_bytes(), b"P6\n2 1\n255\n" + bytes([0, 40, 0, 255, 0, 8]))
+        before = (self.folder / "a.ppm").read_bytes()
+        self.assertIn(b"would overwrite", self.compare("a.ppm", "b.ppm", "-o", "a.ppm", code=2).stderr)
+        self.assertEqual((self.folder / "a.ppm").read_bytes(), before)
+        self.compare("a.ppm", "b.ppm", "-o", "d.unknown", code=2)
+        self.compare("a.ppm", "b.ppm", "-o", "missing/d.png", code=5)
+
+    def test_sizes(self):
+        self.ppm("a.ppm", 2, 1, [0] * 6)
+        self.ppm("b.ppm", 1, 2, [0] * 6)
+        self.assertEqual(self.compare("a.ppm", "b.ppm", "-o", "d.png", code=7).stdout, b"the sizes differ: 2 x 1 and 1 x 2 pixels\n")
+        self.assertFalse((self.folder / "d.png").exists())
+        self.assertEqual(self.difference("a.ppm", "b.ppm"), {"sizes": [[2, 1], [1, 2]]})
+
+    def test_bad_input(self):
+        self.draw("a.png")
+        whole = (self.folder / "a.png").read_bytes()
+        self.draw("a.exr")
+        cases = {"empty.png": b"", "cut.png": whole[:200], "cut.exr": (self.folder / "a.exr").read_bytes()[:300], "text.png": b"hello",
+                 "short.ppm": b"P6\n9 9\n255\nabc", "big.ppm": b"P6\n99999 99999\n255\nabc", "zero.ppm": b"P6\n0 9\n255\n",
+                 "letters.ppm": b"P3\n1 1\n255\n1 2 x\n", "above.ppm": b"P3\n1 1\n255\n1 2 256\n", "huge.ppm": b"P6\n99999999999999999999 1\n255\n",
+                 "head.ppm": b"P6", "comment.ppm": b"P6 #"}
+        for name, content in cases.items():
+            (self.folder / name).write_bytes(content)
+            result = self.compare("a.png", name)
+            self.assertIn(result.returncode, (5, 6), (name, result.stderr))
+            self.assertIn(name.encode(), result.stderr)
+        for arguments, code in ((["a.png"], 2), (["a.png"] * 3, 2), (["a.png", "missing.png"], 5), (["a.png", "."], 5), ([], 2),
+                                (["a.png", "a.png", "--threshold", "-1"], 2), (["a.png", "a.png", "--threshold", "nan"], 2)):
+            self.compare(*arguments, code=code)
+
+    def test_infinities(self):
+        self.draw("a.exr", "--integrator", "depth")  # infinite where nothing is visible
+        self.compare("a.exr", "a.exr", code=0)
+        self.draw("b.exr", "--integrator", "flat")
+        d = self.difference("a.exr", "b.exr")
+        self.assertEqual((d["maximum"], d["mean"]), ("Infinity", "Infinity"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
