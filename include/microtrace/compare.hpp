@@ -58,10 +58,10 @@ struct PictureDifference {
 };
 
 /// Compares two pictures of the same size, sample by sample. Alpha takes part if one of them has
-/// it. Integers are compared as numbers in [0, 1]. If one picture has integers and the other floats,
-/// the floats are first converted to 8 bits according to `display`, as save_image() does it. Two
-/// infinities of the same sign are equal, and so are two NaN; other differences with NaN are
-/// infinite. Throws Error (usage) if the sizes differ.
+/// it. Integers are compared as numbers in [0, 1]. If one picture has integers and the other
+/// floats, the floats are first converted to 8 bits according to `display`, as save_image() does
+/// it. Two infinities of the same sign are equal, and so are two NaN; other differences with NaN
+/// are infinite. Throws Error (usage) if the sizes differ.
 [[nodiscard]] MICROTRACE_EXPORT PictureDifference compare_pictures(const StoredPicture& a,
                                                                    const StoredPicture& b,
                                                                    double threshold = 0,

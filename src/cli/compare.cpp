@@ -53,8 +53,8 @@ std::string json_of(const PictureDifference& d) {
 std::string text_of(const PictureDifference& d, double threshold) {
   if (d.maximum == 0) return "equal\n";
   const double percent = 100 * static_cast<double>(d.differing) / static_cast<double>(d.pixels);
-  std::string text = std::to_string(d.differing) + " of " + std::to_string(d.pixels) +
-                     " pixels differ";
+  std::string text =
+      std::to_string(d.differing) + " of " + std::to_string(d.pixels) + " pixels differ";
   if (threshold > 0) text += " by more than " + number(threshold, false);
   text += " (" + number(percent, false) + " %)\nmaximum           " + number(d.maximum, false) +
           " at " + position(d.at_maximum) + "\nmean              " + number(d.mean, false) +
@@ -88,8 +88,7 @@ int compare_files(const Arguments& arguments) {
   const PictureDifference difference = compare_pictures(a, b, options.threshold, display);
   const std::string text =
       options.is_json ? json_of(difference) : text_of(difference, options.threshold);
-  if (!arguments.output.empty())
-    save_image(difference_picture(a, b, display), arguments.output);
+  if (!arguments.output.empty()) save_image(difference_picture(a, b, display), arguments.output);
   if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
     throw Error(ErrorKind::io, "standard output", "can't be written");
   return difference.differing == 0 ? 0 : kPicturesDiffer;

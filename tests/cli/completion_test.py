@@ -15,7 +15,7 @@ import option_table
 from program import PROGRAM, ProgramTest
 
 
-COMMANDS = ("merge", "dataset", "verify", "explain")
+COMMANDS = ("merge", "dataset", "verify", "explain", "compare", "view")
 
 
 class Completion(ProgramTest):

@@ -28,7 +28,7 @@ def help_text(*command):
 def groups():
     """Returns all options by heading. Each option occurs once."""
     all_groups = option_table.parse(help_text())
-    more = {"Merging": "merge", "Data set": "dataset", "Verification": "verify", "Explanation": "explain"}
+    more = {"Merging": "merge", "Data set": "dataset", "Verification": "verify", "Explanation": "explain", "Comparison": "compare", "Page": "view"}
     return {**all_groups, **{title: option_table.parse(help_text(command))[title] for title, command in more.items()}}
 
 

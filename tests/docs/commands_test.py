@@ -36,6 +36,7 @@ RUN_ELSEWHERE = [
     r"import microtrace|\w+ = (mt|scene)\.|mt\.",  # python.tests
     r"(python3 )?(tests|bench)/[\w/]+\.(py|sh|txt)( .*)?$",  # see test_scripts_and_presets_exist
     r"(array=\$\()?sbatch .*|kubectl apply -f clusters/kubernetes/dataset.yaml$",  # slurm, python.tests
+    r"ssh -L \d+:127\.0\.0\.1:\d+ server microtrace view ",  # microtrace view itself: view.server
     r"ffmpeg |assimp |ulimit |sudo apt",
     r"(find_package|target_link_libraries)\(|#include |(const )?auto |microtrace::|[\w.]+\.py FOLDER",  # package.consumer, docs.library
 ]
@@ -96,14 +97,16 @@ def small(command):
     command = re.sub(r"--size \S+", "", command)
     command = re.sub(r"(--spp|--samples) (\d+)", lambda m: f"{m[1]} {min(int(m[2]), 4)}", command)
     command = re.sub(r"(orbit|hemisphere|random):\d+", r"\1:2", command)
-    if re.match(r"microtrace (merge|completion|verify|explain)|microtrace --", command):
+    if re.match(r"microtrace (merge|completion|verify|explain|compare)|microtrace --", command):
         return command
+    if command.startswith("microtrace view"):  # serves until it is ended
+        command = f"timeout --preserve-status 2 {command} --no-browser"
     command += " --size 32x24"
     has_one_sample = re.search(r"--integrator (?!path)|--spp|--samples", command)
     return command if has_one_sample else command + " --spp 2"
 
 
-COMMANDS = [[], ["merge"], ["dataset"], ["verify"], ["explain"]]
+COMMANDS = [[], ["merge"], ["dataset"], ["verify"], ["explain"], ["compare"], ["view"]]
 
 
 class Documentation(ProgramTest):
@@ -113,6 +116,9 @@ class Documentation(ProgramTest):
         for name in ("model.glb", "scene.glb"):
             shutil.copy(SOURCE / "scenes/gltf/materials.glb", self.folder / name)
         shutil.copy(SOURCE / "scenes/perspective1.json", self.folder / "scene.json")
+        for name in ("expected", "actual"):
+            for extension in ("png", "exr"):
+                self.assertEqual(self.run_program("scene.json", "--size", "8x4", "-q", "-o", f"{name}.{extension}").returncode, 0)
         (self.folder / "sky.ppm").write_bytes(b"P6\n4 2\n255\n" + bytes(range(24)))
         shutil.copy(SOURCE / "scenes/gltf/moving.glb", self.folder / "moving.glb")
         self.assertEqual(self.run_program("scene.json", "--size", "8x4", "-q", "-o", "sky.exr").returncode, 0)
@@ -131,6 +137,9 @@ class Documentation(ProgramTest):
             with self.subTest(snippet.place, command=snippet.text):
                 for option in re.findall(r"(?<![\w-])(--[a-z][a-z-]*)", snippet.text):
                     self.assertIn(option, known, snippet.place)
+                if re.fullmatch(r"microtrace \w+", snippet.text):  # only the name of a command
+                    self.assertIn(snippet.text.split()[1:], COMMANDS)
+                    continue
                 if has_placeholder(snippet.text):
                     continue
                 count += 1

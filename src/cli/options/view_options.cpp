@@ -38,8 +38,7 @@ constexpr std::array kViewOptions{
            .help = "accept this host name in the page's address, for a proxy in front of the page",
            .default_value = "localhost and 127.0.0.1 only",
            .samples = Samples::keep,
-           .set = [](Arguments& a,
-                     const OptionValue& value) { a.view.allowed_host = value.text; }},
+           .set = [](Arguments& a, const OptionValue& value) { a.view.allowed_host = value.text; }},
 };
 static_assert(is_complete(kViewOptions));
 

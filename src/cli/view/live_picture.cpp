@@ -25,9 +25,8 @@ constexpr double kPublishingShare = 0.2;
 
 std::string png_of(const Film& film) {
   std::string file;
-  io::PngEncoder("the picture", io::PngEncoder::Speed::fast).encode(film, [&](std::string_view part) {
-    file += part;
-  });
+  io::PngEncoder("the picture", io::PngEncoder::Speed::fast)
+      .encode(film, [&](std::string_view part) { file += part; });
   return file;
 }
 
@@ -50,9 +49,8 @@ LivePicture::~LivePicture() {
 
 std::uint64_t LivePicture::request(Arguments arguments, bool is_moving) {
   const std::scoped_lock lock(mutex_);
-  wanted_ = {.number = wanted_.number + 1,
-             .arguments = std::move(arguments),
-             .is_moving = is_moving};
+  wanted_ = {
+      .number = wanted_.number + 1, .arguments = std::move(arguments), .is_moving = is_moving};
   last_poll_ = Clock::now();
   changed_.notify_all();
   return wanted_.number;
@@ -220,9 +218,8 @@ void LivePicture::publish(const Film& film, const PictureJob& job, const Request
 void LivePicture::publish_error(const std::string& error, const Request& request) {
   publish({.type = "application/json",
            .body = error_json(error),
-           .picture = json_of(PictureDescription{.request = request.number,
-                                                 .revision = drawing_revision_,
-                                                 .is_done = true})});
+           .picture = json_of(PictureDescription{
+               .request = request.number, .revision = drawing_revision_, .is_done = true})});
 }
 
 void LivePicture::publish(io::HttpResponse response) {

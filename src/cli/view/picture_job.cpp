@@ -59,8 +59,8 @@ PictureJob make_job(SceneSource& source, Arguments arguments) {
                  .sampled_aovs = a.aovs.sampled,
                  .transparent = a.environment.is_transparent()};
   if (a.sampling.needs_passes()) {
-    job.options.passes = Passes{.target_error = a.sampling.target_error,
-                                .time_limit = a.sampling.time_limit};
+    job.options.passes =
+        Passes{.target_error = a.sampling.target_error, .time_limit = a.sampling.time_limit};
   }
   Film shown({.width = 1, .height = 1});
   shown.display = job.integrator->display(shown);

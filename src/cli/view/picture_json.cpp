@@ -41,7 +41,7 @@ Json camera_json(const PictureJob& job) {
 }
 
 Json object_of(const PictureDescription& d) {
-  return {{"request", d.request}, {"revision", d.revision}, {"samples", d.samples},
+  return {{"request", d.request},      {"revision", d.revision},  {"samples", d.samples},
           {"of", d.requested_samples}, {"preview", d.is_preview}, {"done", d.is_done},
           {"seconds", d.seconds}};
 }

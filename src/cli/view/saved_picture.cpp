@@ -56,8 +56,8 @@ io::HttpResponse saved_picture(const PictureJob& job, const std::string& scene,
   if (!is_plain) refuse_usage("format: must be the extension of a picture's file, such as png");
   const TemporaryFolder folder;
   const fs::path path = folder.path() / ("picture." + extension);
-  check_image_path(path, {.alpha = job.options.transparent,
-                          .channels = !job.arguments.aovs.empty()});
+  check_image_path(path,
+                   {.alpha = job.options.transparent, .channels = !job.arguments.aovs.empty()});
   save_image(render(job), path);
   return {.type = extension == "png" ? "image/png" : "application/octet-stream",
           .body = io::read_file(path, io::kMaxFileSize),

@@ -38,8 +38,7 @@ SceneSource::SceneSource(const Arguments& arguments, std::shared_ptr<const Shown
 }
 
 std::shared_ptr<const ShownScene> SceneSource::get(const LoadOptions& wanted) {
-  const Key key{
-      .variant = wanted.variant, .animation = wanted.animation, .time = wanted.time};
+  const Key key{.variant = wanted.variant, .animation = wanted.animation, .time = wanted.time};
   if (fixed_) {
     if (key != Key{}) refuse_usage("--time and --variant need a scene file");
     return fixed_;

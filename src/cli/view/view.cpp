@@ -11,7 +11,8 @@
 namespace microtrace::cli {
 
 void view_scene(const Arguments& arguments) {
-  if (arguments.scene == "-") refuse_usage("SCENE: standard input can't be read again; name a file");
+  if (arguments.scene == "-")
+    refuse_usage("SCENE: standard input can't be read again; name a file");
   ViewServer server(arguments);
   server.load();
   if (!arguments.quiet) {

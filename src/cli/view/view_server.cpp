@@ -136,8 +136,7 @@ void ViewServer::answer(const io::HttpRequest& request, const io::HttpReply& rep
   if (path == "explanation" && posts) {
     return run_errand(reply, [this, request] {
       const Query query(request.query);
-      const PictureJob job =
-          make_job(source_of(query), parse_picture(arguments_, request.body));
+      const PictureJob job = make_job(source_of(query), parse_picture(arguments_, request.body));
       return json_response(explanation_json(explain(job.scene->prepared, job.camera, job.size,
                                                     query.number("x"), query.number("y"))));
     });
@@ -178,9 +177,8 @@ void ViewServer::answer_picture(const io::HttpRequest& request, const std::strin
 void ViewServer::open_picture(const io::HttpRequest& request, const io::HttpReply& reply) {
   SceneSource& source = source_of(Query(request.query));
   if (pictures_.size() >= kMostPictures) {
-    pictures_.erase(std::ranges::max_element(pictures_, {}, [](const auto& entry) {
-      return entry.second->idle_time().count();
-    }));
+    pictures_.erase(std::ranges::max_element(
+        pictures_, {}, [](const auto& entry) { return entry.second->idle_time().count(); }));
   }
   const std::string id = std::to_string(++opened_pictures_);
   pictures_.emplace(id, std::make_unique<LivePicture>(source));

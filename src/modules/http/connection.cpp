@@ -2,12 +2,11 @@
 
 #include "modules/http/access.hpp"
 
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
 #include <chrono>
 #include <string_view>
 #include <utility>
-
-#include <boost/beast/http/read.hpp>
-#include <boost/beast/http/write.hpp>
 
 namespace microtrace::http {
 
@@ -38,8 +37,9 @@ Connection::Response make_response(unsigned status, const std::string& type, std
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Cross-Origin-Resource-Policy", "same-origin");
   // Notebooks of Jupyter and editors show the page in a frame.
-  std::string frames = "'self' http://localhost:* http://127.0.0.1:* https://localhost:* "
-                       "vscode-webview:";
+  std::string frames =
+      "'self' http://localhost:* http://127.0.0.1:* https://localhost:* "
+      "vscode-webview:";
   if (!allowed_host.empty()) frames += " https://" + allowed_host + ":*";
   response.set("Content-Security-Policy",
                "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: "
@@ -70,23 +70,20 @@ void Connection::read() {
         self->parser_->header_limit(kMostHeader);
         self->parser_->body_limit(kMostBody);
         self->stream_.expires_after(kTimeToSend);
-        beast::http::async_read(self->stream_, self->buffer_, *self->parser_,
-                                [self](const boost::system::error_code& failure, std::size_t) {
-                                  using beast::http::error;
-                                  if (failure == error::body_limit)
-                                    self->refuse(status::payload_too_large, "too long");
-                                  else if (failure == error::header_limit ||
-                                           failure == error::buffer_overflow)
-                                    self->refuse(status::request_header_fields_too_large,
-                                                 "too long");
-                                  else if (failure.category() ==
-                                               make_error_code(error::bad_method).category() &&
-                                           failure != error::end_of_stream &&
-                                           failure != error::partial_message)
-                                    self->refuse(status::bad_request, failure.message());
-                                  else if (!failure)
-                                    self->answer();
-                                });
+        beast::http::async_read(
+            self->stream_, self->buffer_, *self->parser_,
+            [self](const boost::system::error_code& failure, std::size_t) {
+              using beast::http::error;
+              if (failure == error::body_limit)
+                self->refuse(status::payload_too_large, "too long");
+              else if (failure == error::header_limit || failure == error::buffer_overflow)
+                self->refuse(status::request_header_fields_too_large, "too long");
+              else if (failure.category() == make_error_code(error::bad_method).category() &&
+                       failure != error::end_of_stream && failure != error::partial_message)
+                self->refuse(status::bad_request, failure.message());
+              else if (!failure)
+                self->answer();
+            });
       });
 }
 
@@ -128,14 +125,13 @@ void Connection::answer() {
                                        .body = request.body().data(),
                                        .size = request.body().size()};
   const MicrotraceHttpHost& program = server_.host();
-  program.handle(program.context, &received,
-                 new std::shared_ptr<Connection>(shared_from_this()));
+  program.handle(program.context, &received, new std::shared_ptr<Connection>(shared_from_this()));
 }
 
 void Connection::refuse(status code, const std::string& text) {
-  Response response = make_response(static_cast<unsigned>(code), "text/plain; charset=utf-8",
-                                    "The request is refused: " + text + ".\n",
-                                    server_.allowed_host());
+  Response response =
+      make_response(static_cast<unsigned>(code), "text/plain; charset=utf-8",
+                    "The request is refused: " + text + ".\n", server_.allowed_host());
   response.keep_alive(false);
   write(std::move(response));
 }

@@ -3,16 +3,15 @@
 
 #include "modules/http/server.hpp"
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
 
 namespace microtrace::http {
 

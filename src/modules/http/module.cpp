@@ -4,12 +4,11 @@
 #include "modules/http/connection.hpp"
 #include "modules/http/server.hpp"
 
+#include <boost/asio/post.hpp>
 #include <exception>
 #include <memory>
 #include <string>
 #include <utility>
-
-#include <boost/asio/post.hpp>
 
 using microtrace::http::Connection;
 using microtrace::http::make_response;
@@ -49,19 +48,19 @@ void run(MicrotraceHttpServer* server) {
 void reply(MicrotraceHttpServer* server, void* exchange, const MicrotraceHttpResponse* response) {
   const std::unique_ptr<std::shared_ptr<Connection>> owner(
       static_cast<std::shared_ptr<Connection>*>(exchange));
-  Connection::Response message = make_response(
-      response->status, response->type,
-      std::string(static_cast<const char*>(response->body), response->size),
-      server->server.allowed_host());
+  Connection::Response message =
+      make_response(response->status, response->type,
+                    std::string(static_cast<const char*>(response->body), response->size),
+                    server->server.allowed_host());
   if (*response->header != 0) message.set("Microtrace-Picture", response->header);
   if (*response->file != 0) {
     message.set(boost::beast::http::field::content_disposition,
                 "attachment; filename=\"" + std::string(response->file) + "\"");
   }
-  boost::asio::post(server->server.context(), [connection = std::move(*owner),
-                                               message = std::move(message)]() mutable {
-    connection->write(std::move(message));
-  });
+  boost::asio::post(server->server.context(),
+                    [connection = std::move(*owner), message = std::move(message)]() mutable {
+                      connection->write(std::move(message));
+                    });
 }
 
 void close(MicrotraceHttpServer* server) {
@@ -71,7 +70,7 @@ void close(MicrotraceHttpServer* server) {
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const MicrotraceHttp* microtrace_http_v1() {
-  static constexpr MicrotraceHttp functions{
+  static constexpr MicrotraceHttp kFunctions{
       .open = open, .port = port, .run = run, .reply = reply, .close = close};
-  return &functions;
+  return &kFunctions;
 }

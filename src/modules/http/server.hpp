@@ -5,13 +5,12 @@
 #include "io/http/http_abi.hpp"
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 
 namespace microtrace::http {
 

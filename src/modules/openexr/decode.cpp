@@ -44,7 +44,8 @@ class MemoryFile : public Imf::IStream {
 };
 
 /// Returns the names of the color channels: R, G and B outside of layers, or of the first layer
-/// that has all three, and A of the same layer if it exists. For gray images, the name is Y or that of the only channel.
+/// that has all three, and A of the same layer if it exists. For gray images, the name is Y or that
+/// of the only channel.
 std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
   std::vector<std::string> layers{""};
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {

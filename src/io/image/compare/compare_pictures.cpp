@@ -24,8 +24,7 @@ void require_equal_sizes(const StoredPicture& a, const StoredPicture& b) {
 
 /// Converts floats to 8 bits as save_image() does it.
 StoredPicture with_eight_bits(const StoredPicture& picture, const Display& display) {
-  Film film(picture.size,
-            picture.has_alpha ? Film::Alpha::premultiplied : Film::Alpha::none);
+  Film film(picture.size, picture.has_alpha ? Film::Alpha::premultiplied : Film::Alpha::none);
   film.display = display;
   StoredPicture result = picture;
   result.kind = StoredPicture::Samples::integers;

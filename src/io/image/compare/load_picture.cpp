@@ -21,10 +21,10 @@ namespace {
 template <class Sample>
 StoredPicture stored(ImageSize size, std::size_t channels, const std::vector<Sample>& from) {
   constexpr bool is_float = std::is_same_v<Sample, float>;
-  StoredPicture picture{.size = size,
-                        .kind = is_float ? StoredPicture::Samples::floats
-                                         : StoredPicture::Samples::integers,
-                        .has_alpha = channels == 2 || channels == 4};
+  StoredPicture picture{
+      .size = size,
+      .kind = is_float ? StoredPicture::Samples::floats : StoredPicture::Samples::integers,
+      .has_alpha = channels == 2 || channels == 4};
   const std::size_t pixels = std::size_t{size.width} * size.height;
   take_memory(pixels * 4 * sizeof(float), "the pixels of a picture");
   picture.samples.resize(pixels * 4);
@@ -60,11 +60,11 @@ StoredPicture load(const std::filesystem::path& path) {
   const bool is_codec = start.starts_with("\x89PNG") || start.starts_with("\xff\xd8\xff") ||
                         (start.starts_with("RIFF") && start.substr(8, 4) == "WEBP");
   if (!is_codec) {
-    const io::DecodedColors decoded = io::decode_colors(
-        bytes, path,
-        {.what = "a picture",
-         .hint = "it must be a picture in the format that its extension names",
-         .otherwise = "convert the picture to PNG"});
+    const io::DecodedColors decoded =
+        io::decode_colors(bytes, path,
+                          {.what = "a picture",
+                           .hint = "it must be a picture in the format that its extension names",
+                           .otherwise = "convert the picture to PNG"});
     return std::visit(
         [&](const auto& samples) {
           return stored({.width = decoded.colors.width, .height = decoded.colors.height},
@@ -76,8 +76,7 @@ StoredPicture load(const std::filesystem::path& path) {
   if (decoded.no_module) throw Error(ErrorKind::unsupported, name, decoded.complaint);
   if (decoded.too_large)
     throw Error(ErrorKind::limit, name, "has too many pixels, at most 2^28 as memory allows");
-  if (!decoded.image)
-    throw Error(ErrorKind::io, name, "can't be decoded: " + decoded.complaint);
+  if (!decoded.image) throw Error(ErrorKind::io, name, "can't be decoded: " + decoded.complaint);
   return stored(*decoded.image);
 }
 

@@ -99,8 +99,7 @@ DecodedColors decode_colors(const std::string& bytes, const std::filesystem::pat
   }
   if (!is_decoded) {
     throw Error(ErrorKind::io, path.string(),
-                "can't be decoded: " + decoded.complaint +
-                    "; " + purpose.hint);
+                "can't be decoded: " + decoded.complaint + "; " + purpose.hint);
   }
   return {.colors = *decoded.colors, .samples = std::move(decoded.samples)};
 }
