@@ -10,7 +10,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-std::string name_of(const JsonValue& value) {
+std::string name_or_empty(const JsonValue& value) {
   const JsonValue* name = value.find("name");
   return name != nullptr ? name->string : std::string();
 }
@@ -39,11 +39,11 @@ SceneChoices choices_of(const Asset& asset) {
   SceneChoices choices;
   if (const std::optional<Element> root = extension(asset.root(), "KHR_materials_variants")) {
     if (const JsonValue* variants = root->value->find("variants")) {
-      for (const JsonValue& variant : variants->items) choices.variants.push_back(name_of(variant));
+      for (const JsonValue& variant : variants->items) choices.variants.push_back(name_or_empty(variant));
     }
   }
   for (const JsonValue& animation : asset.array("animations"))
-    choices.animations.push_back({.name = name_of(animation), .end = end_of(asset, animation)});
+    choices.animations.push_back({.name = name_or_empty(animation), .end = end_of(asset, animation)});
   return choices;
 }
 
