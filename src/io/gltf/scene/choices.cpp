@@ -39,11 +39,13 @@ SceneChoices choices_of(const Asset& asset) {
   SceneChoices choices;
   if (const std::optional<Element> root = extension(asset.root(), "KHR_materials_variants")) {
     if (const JsonValue* variants = root->value->find("variants")) {
-      for (const JsonValue& variant : variants->items) choices.variants.push_back(name_or_empty(variant));
+      for (const JsonValue& variant : variants->items)
+        choices.variants.push_back(name_or_empty(variant));
     }
   }
   for (const JsonValue& animation : asset.array("animations"))
-    choices.animations.push_back({.name = name_or_empty(animation), .end = end_of(asset, animation)});
+    choices.animations.push_back(
+        {.name = name_or_empty(animation), .end = end_of(asset, animation)});
   return choices;
 }
 

@@ -1,0 +1,98 @@
+/// Binds the page of `microtrace view`.
+
+#include "base/start_threads.hpp"
+#include "cli/options/parse.hpp"
+#include "cli/view/view_server.hpp"
+#include "common.hpp"
+#include "prepared.hpp"
+
+#include <atomic>
+#include <memory>
+#include <nanobind/stl/vector.h>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace microtrace::python {
+namespace {
+
+/// Shows a prepared scene as if it came from a file. A scene that has a background is treated like
+/// a JSON scene, because the background of glTF assets is a default of the program.
+std::shared_ptr<const cli::ShownScene> shown(const Prepared& prepared) {
+  const bool is_json = prepared.is_flat || prepared.has_background;
+  return std::make_shared<const cli::ShownScene>(cli::with_extent(
+      {.prepared = prepared.scene, .format = is_json ? SceneFormat::json : SceneFormat::gltf}));
+}
+
+cli::Arguments arguments_of(const Prepared& prepared, std::string name,
+                            std::vector<std::string> words, unsigned port,
+                            std::string allowed_host) {
+  if (port > 65535) throw nb::value_error("port must be in [0, 65535]");
+  if (!prepared.is_flat && prepared.has_background) {
+    for (const char* word : {"path", "--integrator"}) words.insert(words.begin(), word);
+  }
+  words.insert(words.begin(), std::move(name));
+  cli::Arguments arguments = cli::parse_words(cli::Command::view, std::move(words));
+  arguments.view.port = static_cast<std::uint16_t>(port);
+  arguments.view.allowed_host = std::move(allowed_host);
+  return arguments;
+}
+
+/// Serves on a thread of its own until it is closed.
+class Viewer {
+ public:
+  Viewer(const Prepared& prepared, const cli::Arguments& arguments)
+      : server_(arguments, shown(prepared)) {
+    server_.load();
+    thread_ = start_threads(1, [this] { serve(); });
+    if (thread_.empty())
+      throw Error(ErrorKind::limit, "", "the system refuses to start a thread for the page");
+  }
+  ~Viewer() { close(); }
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  void close() {
+    is_closed_ = true;
+    thread_.clear();
+  }
+  [[nodiscard]] std::string address() const { return server_.address(); }
+  [[nodiscard]] unsigned port() const { return server_.port(); }
+  [[nodiscard]] const std::string& token() const { return server_.token(); }
+
+ private:
+  void serve() {
+    try {
+      server_.run([this] { return !is_closed_; });
+    } catch (const std::exception&) {
+      // The page then reports that the server doesn't answer.
+    }
+  }
+
+  cli::ViewServer server_;
+  std::atomic<bool> is_closed_ = false;
+  std::vector<std::jthread> thread_;
+};
+
+void open_viewer(Viewer* self, const Prepared& prepared, std::string name,
+                 std::vector<std::string> words, unsigned port, std::string allowed_host) {
+  const cli::Arguments arguments =
+      arguments_of(prepared, std::move(name), std::move(words), port, std::move(allowed_host));
+  const nb::gil_scoped_release release;
+  new (self) Viewer(prepared, arguments);
+}
+
+}  // namespace
+
+void bind_viewer(nb::module_& module) {
+  nb::class_<Viewer>(module, "Viewer")
+      .def("__init__", &open_viewer, nb::arg("prepared"), nb::arg("name"), nb::arg("words"),
+           nb::arg("port"), nb::arg("allowed_host"))
+      .def("close", &Viewer::close, nb::call_guard<nb::gil_scoped_release>())
+      .def_prop_ro("address", &Viewer::address)
+      .def_prop_ro("port", &Viewer::port)
+      .def_prop_ro("token", &Viewer::token);
+}
+
+}  // namespace microtrace::python
