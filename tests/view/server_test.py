@@ -381,6 +381,13 @@ class Ends(unittest.TestCase):
             self.assertEqual(viewer.request("POST", "end", "").status, 200)
             self.assertEqual(viewer.process.wait(timeout=10), 0)
 
+    def test_signals_at_the_start(self):
+        # The signal often arrives before the server runs.
+        for _ in range(10):
+            with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:
+                viewer.process.send_signal(15)
+                self.assertEqual(viewer.process.wait(timeout=10), 0)
+
     def test_signals(self):
         for signal in (2, 15):
             with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:

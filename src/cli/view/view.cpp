@@ -15,6 +15,7 @@ void view_scene(const Arguments& arguments) {
     refuse_usage("SCENE: standard input can't be read again; name a file");
   ViewServer server(arguments);
   server.load();
+  const DelayedSignals delay;  // from the moment at which the address is known
   if (!arguments.quiet) {
     std::fprintf(stderr, "%s is shown at\n", printable(arguments.scene).c_str());
     std::printf("%s\n", server.address().c_str());
@@ -22,7 +23,6 @@ void view_scene(const Arguments& arguments) {
     std::fprintf(stderr, "Press Ctrl-C to end.\n");
   }
   if (arguments.view.opens_browser) open_browser(server.address());
-  const DelayedSignals delay;
   server.run([] { return DelayedSignals::received() == 0; });
 }
 

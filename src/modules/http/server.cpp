@@ -21,8 +21,8 @@ Server::Server(const MicrotraceHttpHost& host)
 }
 
 void Server::run() {
-  tick();
   context_.restart();
+  tick();  // may stop the context
   context_.run();
 }
 
