@@ -44,6 +44,7 @@ from .pictures import Picture, frame, render
 from .prepared import OpenMeshWarning, PreparedScene
 from .scene import Scene, SceneFile, load, scene_of
 from .shapes import Disc, Mesh, Object, Plane, Quadric, Shape, Sphere, Triangle
+from .viewer import View
 
 __all__ = [
     "AllHits",
@@ -96,6 +97,7 @@ __all__ = [
     "Triangle",
     "UnsupportedError",
     "UsageError",
+    "View",
     "Volume",
     "__version__",
     "cameras",

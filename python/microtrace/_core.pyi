@@ -43,6 +43,16 @@ class SceneFile:
 class AllHits:
     def __len__(self) -> int: ...
 
+class Viewer:
+    def __init__(
+        self, prepared: Prepared, name: str, words: list[str], port: int, allowed_host: str
+    ) -> None: ...
+    def close(self) -> None: ...
+    @property
+    def address(self) -> str: ...
+    @property
+    def port(self) -> int: ...
+
 class Prepared:
     def __init__(
         self, scene: Any, previous: Prepared | None, threads: int, fast_build: bool

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from . import _core
 from ._arrays import as_numbers, as_threads, readable
 from .errors import warn_caller
 from .hits import AllHits, ClosestPoints, HitField, Hits, output_arrays
+from .viewer import View, words_of
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -131,6 +132,37 @@ class PreparedScene:
             self._core.explain(flat, low, high, max_hits, max_misses)
         )
         return explanation
+
+    def view(
+        self,
+        options: str | Sequence[str] = "",
+        *,
+        height: int = 700,
+        port: int = 0,
+        name: str = "scene",
+        allow_host: str = "",
+    ) -> View:
+        """Serves a page that shows the scene, as `microtrace view` does; docs/view.md describes it.
+
+        Notebooks show the page if this is the last expression of a cell. Elsewhere, call
+        View.open(), or open View.url.
+
+        Args:
+            options: options of `microtrace view` with which the page starts, such as
+                "--spp 256 --view front"; either a text or a list of words.
+            height: height of the page in notebooks, in CSS pixels.
+            port: port of 127.0.0.1; 0 means any free port.
+            name: name of the scene on the page.
+            allow_host: a host name that addresses may have besides localhost and 127.0.0.1, for a
+                proxy in front of the page.
+
+        Raises:
+            UsageError: an option is unknown or has a wrong value.
+            FileError: the port is in use.
+            UnsupportedError: the module microtrace_http is not installed.
+            ValueError: the port is not in [0, 65535].
+        """
+        return View(self._core, name, words_of(options), port, allow_host, height)
 
     def occluded(
         self,

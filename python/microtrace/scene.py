@@ -20,6 +20,7 @@ from .lights import Environment, Light
 from .materials import Material
 from .prepared import PreparedScene
 from .shapes import Disc, Mesh, Object, Plane, Quadric, Sphere
+from .viewer import View
 
 
 @dataclass(eq=False, repr=False)
@@ -141,6 +142,20 @@ class Scene(Brief):
             LimitError: there is not enough memory, or there are too many primitives.
         """
         return PreparedScene(self, previous, threads=threads, fast_build=fast_build)
+
+    def view(
+        self,
+        options: str | Sequence[str] = "",
+        *,
+        height: int = 700,
+        port: int = 0,
+        name: str = "scene",
+        allow_host: str = "",
+    ) -> View:
+        """Prepares the scene and serves a page that shows it; see PreparedScene.view()."""
+        return self.prepare().view(
+            options, height=height, port=port, name=name, allow_host=allow_host
+        )
 
     def copy(self) -> Scene:
         """Returns a copy that shares only arrays, images and maps."""

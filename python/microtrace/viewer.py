@@ -21,7 +21,13 @@ class View:
     """
 
     def __init__(
-        self, core: _core.Prepared, name: str, words: list[str], port: int, allow_host: str, height: int
+        self,
+        core: _core.Prepared,
+        name: str,
+        words: list[str],
+        port: int,
+        allow_host: str,
+        height: int,
     ) -> None:
         self._core = _core.Viewer(core, name, words, port, allow_host)
         self._height = height

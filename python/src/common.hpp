@@ -40,5 +40,6 @@ void bind_rays(nb::module_& module);
 void bind_pictures(nb::module_& module);
 void bind_solids(nb::module_& module);
 void bind_datasets(nb::module_& module);
+void bind_viewer(nb::module_& module);
 
 }  // namespace microtrace::python

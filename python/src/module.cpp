@@ -17,4 +17,5 @@ NB_MODULE(_core, module) {
   bind_pictures(module);
   bind_solids(module);
   bind_datasets(module);
+  bind_viewer(module);
 }

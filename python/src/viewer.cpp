@@ -43,8 +43,10 @@ cli::Arguments arguments_of(const Prepared& prepared, std::string name,
 class Viewer {
  public:
   Viewer(const Prepared& prepared, const cli::Arguments& arguments)
-      : server_(arguments, shown(prepared)) {
-    server_.load();
+      : server_(std::make_unique<cli::ViewServer>(arguments, shown(prepared))),
+        address_(server_->address()),
+        port_(server_->port()) {
+    server_->load();
     thread_ = start_threads(1, [this] { serve(); });
     if (thread_.empty())
       throw Error(ErrorKind::limit, "", "the system refuses to start a thread for the page");
@@ -56,21 +58,23 @@ class Viewer {
   void close() {
     is_closed_ = true;
     thread_.clear();
+    server_.reset();
   }
-  [[nodiscard]] std::string address() const { return server_.address(); }
-  [[nodiscard]] unsigned port() const { return server_.port(); }
-  [[nodiscard]] const std::string& token() const { return server_.token(); }
+  [[nodiscard]] const std::string& address() const { return address_; }
+  [[nodiscard]] unsigned port() const { return port_; }
 
  private:
   void serve() {
     try {
-      server_.run([this] { return !is_closed_; });
+      server_->run([this] { return !is_closed_; });
     } catch (const std::exception&) {
       // The page then reports that the server doesn't answer.
     }
   }
 
-  cli::ViewServer server_;
+  std::unique_ptr<cli::ViewServer> server_;  ///< null if it is closed
+  std::string address_;
+  unsigned port_;
   std::atomic<bool> is_closed_ = false;
   std::vector<std::jthread> thread_;
 };
@@ -91,8 +95,7 @@ void bind_viewer(nb::module_& module) {
            nb::arg("port"), nb::arg("allowed_host"))
       .def("close", &Viewer::close, nb::call_guard<nb::gil_scoped_release>())
       .def_prop_ro("address", &Viewer::address)
-      .def_prop_ro("port", &Viewer::port)
-      .def_prop_ro("token", &Viewer::token);
+      .def_prop_ro("port", &Viewer::port);
 }
 
 }  // namespace microtrace::python
