@@ -67,6 +67,11 @@ class Compare(ProgramTest):
         self.assertEqual(difference["maximum"], 1)
         self.draw("alpha.exr", "--background", "transparent")
         self.compare("alpha.png", "alpha.exr", code=0)
+        # The background of opaque.png is black, so that only alpha differs.
+        self.assertGreater(difference["differing"], 100)
+        self.compare("opaque.png", "alpha.png", "-o", "d.ppm", code=7)
+        pixels = (self.folder / "d.ppm").read_bytes().removeprefix(b"P6\n64 48\n255\n")
+        self.assertEqual(pixels.count(b"\xff"), 3 * difference["differing"])
 
     def test_one_changed_sample(self):
         choices = random.Random(1)

@@ -114,10 +114,11 @@ Film difference_picture(const StoredPicture& a, const StoredPicture& b, const Di
     for (std::uint32_t y = 0; y < p.size.height; ++y) {
       for (std::uint32_t x = 0; x < p.size.width; ++x) {
         const std::size_t first = 4 * (std::size_t{y} * p.size.width + x);
-        for (glm::length_t c = 0; c < 3; ++c) {
-          const std::size_t i = first + static_cast<std::size_t>(c);
-          film.at(x, y)[c] = static_cast<float>(difference_of(p.samples[i], q.samples[i]));
-        }
+        const auto difference = [&](std::size_t c) {
+          return static_cast<float>(difference_of(p.samples[first + c], q.samples[first + c]));
+        };
+        const float of_alpha = p.has_alpha || q.has_alpha ? difference(3) : 0;
+        film.at(x, y) = glm::max(Vec3(difference(0), difference(1), difference(2)), of_alpha);
       }
     }
     film.display = {.srgb = false, .scale = Vec3(kAmplification)};
