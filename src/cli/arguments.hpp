@@ -137,6 +137,7 @@ struct Arguments {
   PathOptions path{};  ///< options of the path integrator
   Channels aovs{};
   CameraOptions camera{};
+  std::optional<NetworkAddress> display_server{};
   unsigned threads = 0;              ///< 0: default_threads()
   std::optional<double> max_time{};  ///< seconds for the whole run
   /// Ends the run with its parent process, which has this id; 0: the current parent.

@@ -59,6 +59,9 @@ int render_pictures(cli::Arguments arguments) {
   cli::Warnings log(arguments);
   std::optional<Environment> environment;
   std::optional<cli::SampleFiles> samples;
+  std::optional<cli::DisplayServer> viewer;
+  if (arguments.display_server && !arguments.validate)
+    viewer.emplace(*arguments.display_server, arguments.quiet);
   cli::Tables tables;
   for (std::uint32_t index = 0; index < sequence.count(); ++index) {
     LoadedScene loaded = file.at(sequence.time(index));
@@ -83,7 +86,8 @@ int render_pictures(cli::Arguments arguments) {
         inputs, {{"--output", sequence.picture(index)}, {"--sidecar", sequence.sidecar(index)}});
     const cli::PictureFiles files{.picture = sequence.picture(index),
                                   .sidecar = sequence.sidecar(index),
-                                  .samples = samples ? &*samples : nullptr};
+                                  .samples = samples ? &*samples : nullptr,
+                                  .viewer = viewer ? &*viewer : nullptr};
     const auto report_progress = [&](double fraction) {
       if (progress) progress((index + fraction) / sequence.count());
     };

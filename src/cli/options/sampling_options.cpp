@@ -125,6 +125,13 @@ constexpr std::array kCheckpointOptions{
            .help = "write the picture repeatedly while rendering",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue&) { a.sampling.is_progressive = true; }},
+    Option{.names = "--display-server",
+           .metavar = "HOST:PORT",
+           .help = "show the picture while rendering in the image viewer tev, which listens on "
+                   "port 14158 of its machine",
+           .samples = Samples::keep,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.display_server = parse_address(value); }},
     Option{.names = "--save-every",
            .metavar = "S",
            .help = "seconds between two saves of the checkpoint and of the progressive picture",

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace microtrace::cli {
 namespace {
@@ -169,6 +170,20 @@ Shard parse_shard(const OptionValue& value) {
   if (!index || !count || *index < 1 || *index > *count)
     value.refuse("I/N, shard I of N, with I from 1 to N");
   return {.index = *index, .count = *count};
+}
+
+NetworkAddress parse_address(const OptionValue& value) {
+  const std::string& text = value.text;
+  const std::size_t colon = text.rfind(':');
+  const std::uint32_t port =
+      colon == text.npos ? 0 : whole_number(text.substr(colon + 1)).value_or(0);
+  std::string host = text.substr(0, colon);
+  const bool has_brackets = host.starts_with('[') && host.ends_with(']');
+  if (has_brackets) host = host.substr(1, host.size() - 2);
+  const bool is_ambiguous = !has_brackets && host.find(':') != host.npos;
+  if (host.empty() || is_ambiguous || port == 0 || port > 65535)
+    value.refuse("HOST:PORT, such as localhost:14158");
+  return {.host = std::move(host), .port = std::to_string(port)};
 }
 
 IntegratorOptions parse_integrator(const OptionValue& value) {

@@ -71,6 +71,14 @@ struct Shard {
 /// Parses I/N.
 [[nodiscard]] Shard parse_shard(const OptionValue& value);
 
+/// A port of a machine, for getaddrinfo().
+struct NetworkAddress {
+  std::string host{}, port{};
+};
+
+/// Parses HOST:PORT, where HOST is a name, an IPv4 address, or an IPv6 address in brackets.
+[[nodiscard]] NetworkAddress parse_address(const OptionValue& value);
+
 [[nodiscard]] IntegratorOptions parse_integrator(const OptionValue& value);
 [[nodiscard]] std::vector<std::string> integrator_names();
 

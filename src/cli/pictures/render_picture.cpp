@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace microtrace::cli {
@@ -60,6 +61,18 @@ std::function<bool(double)> shown_by(const std::function<void(double)>& progress
   return [&progress](double share) {
     if (progress) progress(share);
     return DelayedSignals::received() == 0;
+  };
+}
+
+/// Shows the picture after passes if it is rendered in passes.
+void show_passes(RenderOptions& options, DisplayServer& viewer, const std::string& name) {
+  if (!options.passes && options.integrator->is_random()) options.passes.emplace();
+  if (!options.passes) return;
+  options.passes->after_each = [&viewer, name, transparent = options.transparent,
+                                before = options.passes->after_each](const SampleSums& sums) {
+    if (before) before(sums);
+    const Film::Alpha alpha = transparent ? Film::Alpha::premultiplied : Film::Alpha::none;
+    if (viewer.is_due()) viewer.show(name, develop(sums, alpha));
   };
 }
 
@@ -143,6 +156,9 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
                             .time_limit = arguments.sampling.time_limit};
   }
   if (needs_ids_for_sidecar_only(arguments, files)) options.aovs.push_back(Aov::id);
+  const std::string shown_name =
+      (arguments.sampling.shard || files.picture == "-" ? arguments.scene : files.picture.string());
+  if (files.viewer != nullptr) show_passes(options, *files.viewer, shown_name);
   const auto start = std::chrono::steady_clock::now();
   const double max_cost_growth = max_cost_growth_of(scene, size, options.samples);
   const PreparedScene prepared(std::move(scene), {.threads = options.threads,
@@ -152,6 +168,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
   tables = prepared.tables();
   Film film = render_and_save(prepared, camera, size, options, arguments, files);
+  if (files.viewer != nullptr) files.viewer->show(shown_name, film);
   times.build += build.count();
   watch.rendered(times);
   apply_display(film, arguments.display);

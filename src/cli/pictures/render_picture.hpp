@@ -1,5 +1,6 @@
 #pragma once
 #include "cli/arguments.hpp"
+#include "cli/pictures/display_server.hpp"
 #include "cli/pictures/sample_files.hpp"
 #include "cli/pictures/sequence.hpp"
 #include "cli/report/statistics.hpp"
@@ -14,11 +15,12 @@
 
 namespace microtrace::cli {
 
-/// The files of a picture.
+/// The files of a picture, and the viewer that shows it.
 struct PictureFiles {
   std::filesystem::path picture;
-  std::filesystem::path sidecar;   ///< empty if no sidecar is written
-  SampleFiles* samples = nullptr;  ///< the checkpoints to read and write; null if there are none
+  std::filesystem::path sidecar;    ///< empty if no sidecar is written
+  SampleFiles* samples = nullptr;   ///< the checkpoints to read and write; null if there are none
+  DisplayServer* viewer = nullptr;  ///< null if there is none
 };
 
 /// Throws the errors that writing a sequence's pictures to their paths would throw. Called before
