@@ -9,7 +9,9 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
+#include <ctime>
 #include <sys/time.h>
 #include <thread>
 #include <unistd.h>
@@ -22,7 +24,9 @@ namespace {
 /// handlers while the main thread begins or ends a delay.
 constexpr int kNotDelaying = 0, kDelaying = -1;
 std::atomic<int> delayed_signal{kNotDelaying};
-static_assert(std::atomic<int>::is_always_lock_free, "signal handlers use it");
+static_assert(std::atomic<int>::is_always_lock_free &&
+                  std::atomic<std::int64_t>::is_always_lock_free,
+              "signal handlers use them");
 
 // These signal handlers make only async-signal-safe calls.
 
@@ -38,10 +42,23 @@ int record(int signal) {
   return state;
 }
 
+/// Returns true within half a second of the first call. timeout(1) and other parents signal first
+/// their child and then its whole group, so that one request arrives twice.
+bool belongs_to_first_request() {
+  constexpr std::int64_t kMost = 500;
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  const std::int64_t now = std::int64_t{time.tv_sec} * 1000 + time.tv_nsec / 1'000'000;
+  static std::atomic<std::int64_t> first{-1};
+  std::int64_t expected = -1;
+  return first.compare_exchange_strong(expected, now) || now - expected <= kMost;
+}
+
 void end_soon(int signal) {
+  const bool is_same_request = belongs_to_first_request();
   const int before = record(signal);
   // Beyond its limit, the kernel repeats XCPU every second, which may be too short for saving.
-  const bool is_repeated = before > 0 && signal == SIGXCPU;
+  const bool is_repeated = before > 0 && (signal == SIGXCPU || is_same_request);
   if (before != kDelaying && !is_repeated) end_at_once(signal);
 }
 

@@ -146,6 +146,15 @@ class Samples(ProgramTest):
 
         self.assertEqual(self.interrupted(interrupt), 128 + signal.SIGXCPU)
 
+    def test_one_request_may_arrive_as_two_signals(self):
+        # timeout(1) signals its child and then the child's group.
+        def interrupt(pid):
+            for _ in range(20):
+                os.kill(pid, signal.SIGTERM)
+                time.sleep(0.005)
+
+        self.assertEqual(self.interrupted(interrupt), 128 + signal.SIGTERM)
+
     def test_runs_whose_whole_group_is_interrupted_save_their_samples(self):
         code = "import subprocess, sys; p = subprocess.Popen(sys.argv[1:]); print(p.pid, flush=True); p.wait()"
         self.interrupted(lambda pid: os.kill(pid, signal.SIGINT), parent=[sys.executable, "-c", code])
