@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Compares pictures by microtrace with pictures by Mitsuba 3, for scenes that both programs support.
 
-usage: agreement.py FOLDER MICROTRACE [--spp N] [--seeds N]
+usage: agreement.py FOLDER MICROTRACE [--spp N] [--seeds N] [SCENE...]
+SCENE is a scene of hard_scenes.py; without it, the scenes of agreement_scenes.py are compared.
 Each program renders several pictures of each scene with different seeds. The differences between the programs' means
 over blocks of pixels, divided by their standard deviations, must look normally distributed. Writes the scenes and the
 mean pictures to FOLDER.
@@ -12,8 +13,11 @@ import pathlib
 import mitsuba as mi
 import numpy as np
 
-import agreement_scenes
-import time_helmet
+mi.set_variant("llvm_ad_rgb")
+
+import agreement_scenes  # noqa: E402, needs the variant
+import hard_scenes  # noqa: E402
+import time_helmet  # noqa: E402
 
 BLOCK = 8  # in pixels
 
@@ -36,13 +40,17 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--spp", type=int, default=256)
     parser.add_argument("--seeds", type=int, default=8)
+    parser.add_argument("scenes", nargs="*", metavar="SCENE")
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
     options.folder.mkdir(parents=True, exist_ok=True)
-    mi.set_variant("scalar_rgb")
     print("scene | mean, ours | Mitsuba's | difference of means, sigma | of blocks, sigma: root of mean square | largest",
           flush=True)
-    for scene in agreement_scenes.write(options.folder):
+    if options.scenes:
+        scenes = [hard_scenes.SCENES[name](options.folder).finish() for name in options.scenes]
+    else:
+        scenes = agreement_scenes.write(options.folder)
+    for scene in scenes:
         theirs = mi.load_dict(scene.mitsuba)
         a, b = [], []
         for seed in range(options.seeds):

@@ -91,11 +91,28 @@ class Both:
                                        self.glb.add("materials", material))
         self.glb.add_node(mesh=self.glb.add("meshes", {"primitives": [primitive]}))
 
+    def add_glass(self, mesh):
+        """Adds a closed mesh of smooth clear glass."""
+        number = len(self.mitsuba)
+        path = self.folder / f"{self.name}_{number}.ply"
+        files.write_ply(path, mesh)
+        self.mitsuba[f"shape{number}"] = {"type": "ply", "filename": str(path), "bsdf": {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}}
+        used = self.glb.document["extensionsUsed"]
+        used += {"KHR_materials_transmission", "KHR_materials_volume"} - set(used)
+        material = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {
+            "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}}}
+        primitive = self.glb.primitive({k: v for k, v in mesh.items() if k != "uvs"}, self.glb.add("materials", material))
+        self.glb.add_node(mesh=self.glb.add("meshes", {"primitives": [primitive]}))
+
     def add_point(self, place, intensity):
-        self.glb.document["extensionsUsed"].append("KHR_lights_punctual")
-        self.glb.document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": intensity}]}}
-        self.glb.add_node(translation=list(place), extensions={"KHR_lights_punctual": {"light": 0}})
-        self.mitsuba["point"] = {"type": "point", "position": list(place), "intensity": {"type": "rgb", "value": intensity}}
+        document = self.glb.document
+        if "extensions" not in document:
+            document["extensionsUsed"].append("KHR_lights_punctual")
+            document["extensions"] = {"KHR_lights_punctual": {"lights": []}}
+        lights = document["extensions"]["KHR_lights_punctual"]["lights"]
+        lights.append({"type": "point", "intensity": intensity})
+        self.glb.add_node(translation=list(place), extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
+        self.mitsuba[f"point{len(lights)}"] = {"type": "point", "position": list(place), "intensity": {"type": "rgb", "value": intensity}}
 
     def finish(self):
         self.glb.write(self.folder / f"{self.name}.glb")

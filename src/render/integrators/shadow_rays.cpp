@@ -1,5 +1,7 @@
 #include "render/integrators/shadow_rays.hpp"
 
+#include "render/shading/transmittance.hpp"
+
 #include <new>
 
 namespace microtrace {
@@ -19,28 +21,6 @@ void ShadowRays::Group::finish(const Shadow& shadow, PrimitiveId surface) {
   targets[count] = shadow.target;
   left[count++] = surface;
 }
-
-namespace {
-
-/// The fraction of light that passes all surfaces before t_max or the target. `beyond` counts the
-/// calls of Bvh::next.
-float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
-                    std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
-                    std::uint64_t& beyond) {
-  float transmittance = 1;
-  while (hit && hit->id != target) {
-    const ShadingPoint point = shading.point(ray, *hit);
-    // If the ray hits a front, the light comes from behind it.
-    if (!(passes_backs && Shading::lets_light_in(point)))
-      transmittance *= 1 - shading.coverage(point, false);
-    if (transmittance == 0) return 0;
-    hit = bvh.next(ray, *hit);
-    ++beyond;
-  }
-  return hit || !target ? transmittance : 0;
-}
-
-}  // namespace
 
 std::uint64_t ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, bool passes_backs,
                                       Group& group, std::span<Vec3> colors) {

@@ -16,21 +16,23 @@ struct KindProbabilities {
 /// Computes probabilities of the kinds of light in proportion to their estimated contributions,
 /// with a minimum probability. A uniform environment has a probability too, although it isn't
 /// sampled: this spends fewer samples on other lights where they contribute little. Its estimate is
-/// reduced, because little of its light may arrive indoors.
+/// reduced, because little of its light may arrive indoors. `share` is the factor of
+/// environment_light.
 template <int N>
 KindProbabilities<N> kind_probabilities(const LightChoiceSetup& setup, const Doubles3<N>& p,
-                                        const Floats3<N>& n) {
+                                        const Floats3<N>& n, const Double<N>& share) {
   using F = Float<N>;
   using D = Double<N>;
   constexpr float kLeast = 0.1F;
   D near{};
   if (setup.nodes != nullptr) near = LightNodes<N>(*setup.nodes).importance(p, n);
-  const D sum = setup.environment_light + setup.far_light + near;
+  const D sky = setup.environment_light * share;
+  const D sum = sky + setup.far_light + near;
   const auto part = [&](bool is_there, const D& light) {
     if (!is_there) return F{};
     return larger_of(to_single<N>(sum > 0 ? light / sum : D{}), all<N>(kLeast));
   };
-  const F environment = part(setup.environment_light > 0, D{} + setup.environment_light);
+  const F environment = part(setup.environment_light > 0, sky);
   const F far = part(setup.has_far, D{} + setup.far_light);
   const F of_near = part(setup.nodes != nullptr, near);
   const F all_kinds = environment + far + of_near;
@@ -44,7 +46,8 @@ void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lane
   using F = Float<N>;
   const Doubles3<N> p = widened3<N>(lanes.p, i);
   const Floats3<N> n = load3<N>(lanes.n, i);
-  const KindProbabilities<N> kinds = kind_probabilities<N>(setup, p, n);
+  const KindProbabilities<N> kinds =
+      kind_probabilities<N>(setup, p, n, widened<N>(lanes.share + i));
   const F choice = load<N>(lanes.choice + i), beyond = choice - kinds.environment;
   const F of_near = sampling::reused<N>(beyond, kinds.far, kinds.near);
   const auto is_environment = choice < kinds.environment;

@@ -22,6 +22,7 @@ enum class LightKind : std::uint8_t { none, environment, far, near };
 template <int width>
 struct alignas(width * sizeof(float)) LightChoices {
   float p[3][width], n[3][width];  ///< points, and their unit normals on either side
+  float share[width];              ///< factor of LightChoiceSetup::environment_light
   float choice[width];  ///< random number in [0, 1); the kernel rescales it to [0, 1) unless no
                         ///< kind is selected
   // The kernel sets the members below.

@@ -1,6 +1,7 @@
 #pragma once
 /// The lighting of a picture: emitters, the environment, and light sampling.
 
+#include "render/guiding/environment_guide.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/lights/emitters.hpp"
@@ -10,6 +11,7 @@
 #include <microtrace/hit.hpp>
 #include <microtrace/math.hpp>
 
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -18,14 +20,15 @@ namespace microtrace {
 /// All light of a picture. Immutable; any number of threads may use it.
 class Lighting {
  public:
-  /// The emitters must outlive this object. `is_seen` is true if the environment is visible to
-  /// camera rays.
-  Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment, bool is_seen);
+  /// The emitters and `visibility` must outlive this object. `is_seen` is true if the environment
+  /// is visible to camera rays. `visibility` is null unless the scene is enclosed.
+  Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment, bool is_seen,
+           const SkyVisibility* visibility);
 
   /// Samples a light for each of `count` points. `choices.choice` selects the light, and
-  /// `triangles.u` the position on it. If a uniform environment is selected, the sample has no
-  /// light, because uniform environments are left to BSDF sampling. The other members of `choices`
-  /// and `triangles` are working memory of the kernels.
+  /// `triangles.u` the position on it. If a uniform environment is selected without a guide, the
+  /// sample has no light, because uniform environments are left to BSDF sampling. The other members
+  /// of `choices` and `triangles` are working memory of the kernels.
   void sample(const ShadingKernels& kernels, int count, LightChoices<kShadingLanes>& choices,
               TriangleLights<kShadingLanes>& triangles,
               std::span<LightSample, kShadingLanes> samples) const;
@@ -56,20 +59,34 @@ class Lighting {
                                   float cosine) const;
 
  private:
-  [[nodiscard]] KindProbabilities<1> probabilities(const LightSampleContext& context) const {
-    return kind_probabilities<1>(setup_, DVec3(context.p), context.n);
+  /// The guide's cell for a surface; null if there is no guide.
+  [[nodiscard]] const EnvironmentGuide::Cell* cell(const Vec3& p, const Vec3& n) const {
+    return guide_ ? &guide_->at(p, n) : nullptr;
   }
+  /// The factor of the environment's estimated light at a surface in this cell.
+  [[nodiscard]] float share(const EnvironmentGuide::Cell* cell) const;
+  [[nodiscard]] KindProbabilities<1> probabilities(const LightSampleContext& context,
+                                                   const EnvironmentGuide::Cell* cell) const {
+    return kind_probabilities<1>(setup_, DVec3(context.p), context.n, double{share(cell)});
+  }
+  /// The pdf with which a direction is sampled in this cell if the environment is selected.
+  [[nodiscard]] float pdf(const EnvironmentGuide::Cell* cell, const Vec3& wi, float own) const;
   /// Sets the samples of the lanes for which the environment is selected.
   void sample_environment(int count, const LightChoices<kShadingLanes>& choices,
                           const TriangleLights<kShadingLanes>& triangles,
                           std::span<LightSample, kShadingLanes> samples) const;
   [[nodiscard]] bool samples_environment() const {
-    return environment_ && !environment_->is_uniform();
+    return environment_ && (guide_ || !environment_->is_uniform());
+  }
+  /// True if the environment is sampled in this cell.
+  [[nodiscard]] bool samples_environment(const EnvironmentGuide::Cell* cell) const {
+    return !environment_->is_uniform() || (cell != nullptr && cell->part() > 0);
   }
 
   const Emitters& emitters_;
-  std::optional<EnvironmentLight> environment_;
+  std::unique_ptr<const EnvironmentLight> environment_;
   bool is_seen_;
+  std::unique_ptr<const EnvironmentGuide> guide_;
   LightChoiceSetup setup_;
 };
 

@@ -55,9 +55,17 @@ const Emitters& PreparedScene::Content::emitters() const {
 Lighting PreparedScene::Content::lighting(const std::optional<Environment>& in_place) const {
   const auto light = [&](const Environment& e) { return EnvironmentLight(e, tables_->of(e)); };
   const std::optional<Environment>& environment = in_place ? in_place : scene_->environment;
-  if (environment) return {emitters(), light(*environment), environment->is_background};
-  if (!scene_->lights.empty()) return {emitters(), std::nullopt, false};
-  return {emitters(), light(Environment{.content = Studio{}}), false};
+  if (environment)
+    return {emitters(), light(*environment), environment->is_background, sky_visibility()};
+  if (!scene_->lights.empty()) return {emitters(), std::nullopt, false, nullptr};
+  return {emitters(), light(Environment{.content = Studio{}}), false, sky_visibility()};
+}
+
+const SkyVisibility* PreparedScene::Content::sky_visibility() const {
+  const Shading& own = shading();
+  const SkyVisibility& visibility =
+      sky_visibility_.get([&] { return make<SkyVisibility>(*scene_, bvh(), own); });
+  return visibility.is_enclosed() ? &visibility : nullptr;
 }
 
 std::optional<PreparedScene::Content::Recentered> PreparedScene::Content::recentered(

@@ -3,6 +3,7 @@
 
 #include "base/lazy.hpp"
 #include "base/memory_account.hpp"
+#include "render/guiding/sky_visibility.hpp"
 #include "render/lights/lighting.hpp"
 #include "render/prepared/recentered.hpp"
 #include "render/prepared/shared_tables.hpp"
@@ -53,6 +54,9 @@ class PreparedScene::Content {
   [[nodiscard]] std::shared_ptr<const Content> widened(const Camera& camera, ImageSize size) const;
 
  private:
+  /// Where the scene is open to its environment; null unless it is enclosed.
+  [[nodiscard]] const SkyVisibility* sky_visibility() const;
+
   /// Makes a T from these arguments and charges its memory to this scene's account.
   template <class T, class... Arguments>
   [[nodiscard]] std::unique_ptr<T> make(Arguments&&... arguments) const;
@@ -68,6 +72,7 @@ class PreparedScene::Content {
   Lazy<Surfaces> surfaces_;
   Lazy<Shading> shading_;
   Lazy<Emitters> emitters_;
+  Lazy<SkyVisibility> sky_visibility_;
   Lazy<std::optional<PointBounds>> bounds_;  // nothing if some shapes can't be translated
   // The most recent translation. Different cameras of a scene usually need the same one.
   mutable std::mutex moved_mutex_;

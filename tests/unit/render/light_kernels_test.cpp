@@ -49,6 +49,7 @@ TEST_P(LightKernelsTest, LightsAreChosenWithTheBitsOfOneLane) {
     for (int i = 0; i < kShadingLanes; ++i) {
       put(lanes.p, i, 12.0F * random.vector());
       put(lanes.n, i, random.direction());
+      lanes.share[i] = random.number();
       lanes.choice[i] = random.number();
     }
     LightChoices<kShadingLanes> expected = lanes;

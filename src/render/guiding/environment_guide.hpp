@@ -1,0 +1,65 @@
+#pragma once
+/// Samples the light of an environment that reaches a surface.
+
+#include "render/guiding/hemisphere_bins.hpp"
+#include "render/guiding/lazy_cells.hpp"
+#include "render/guiding/sky_visibility.hpp"
+#include "render/lights/environment_light.hpp"
+
+#include <microtrace/math.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace microtrace {
+
+/// For each cell of a SkyVisibility, a pdf of directions in proportion to the environment's
+/// luminance that arrives, times about the cosine. It is combined with the environment's own pdf,
+/// which is independent of visibility, because the cells are coarse. Any number of threads may use
+/// the object.
+class EnvironmentGuide {
+ public:
+  /// The arguments must outlive this object.
+  EnvironmentGuide(const SkyVisibility& visibility, const EnvironmentLight& environment)
+      : visibility_(visibility), environment_(environment) {
+    cells_.resize(visibility.count());
+  }
+
+  class Cell {
+   public:
+    /// The probability of sampling by visibility. It is 0 if the cell sees much of the environment,
+    /// or nothing of it.
+    [[nodiscard]] float part() const { return part_; }
+    /// The fraction of a uniform environment's irradiance that arrives, at most 1.
+    [[nodiscard]] float openness() const { return openness_; }
+
+    /// Samples a unit direction for u in [0, 1)^2. part() must not be 0.
+    [[nodiscard]] Vec3 sample(const Vec2& u) const;
+    /// The pdf of sample(), per steradian.
+    [[nodiscard]] float pdf(const Vec3& d) const;
+
+   private:
+    friend class EnvironmentGuide;
+    SignedAxis about_{};
+    float part_ = 0, openness_ = 1;
+    /// Cumulative probabilities of the bins, from 0 to 2^24.
+    std::array<std::uint32_t, HemisphereBins::kCount + 1> bounds_{};
+  };
+
+  /// The cell for surfaces at p with the unit normal n.
+  [[nodiscard]] const Cell& at(const Vec3& p, const Vec3& n) const {
+    const std::size_t index = visibility_.index(p, n);
+    return cells_.get(index, [&] { return fill(index); });
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<const Cell> fill(std::size_t index) const;
+
+  const SkyVisibility& visibility_;
+  const EnvironmentLight& environment_;
+  LazyCells<Cell> cells_;
+};
+
+}  // namespace microtrace

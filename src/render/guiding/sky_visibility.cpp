@@ -1,0 +1,219 @@
+#include "render/guiding/sky_visibility.hpp"
+
+#include "render/sampling/hash.hpp"
+#include "render/sampling/sobol.hpp"
+#include "render/shading/transmittance.hpp"
+#include "scene/support.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+constexpr double kCellsAcross = 16;
+/// The margin around the bounds and the cells as a fraction of their sizes, because many walls lie
+/// on the boundaries of cells.
+constexpr double kMargin = 0.01;
+constexpr std::uint32_t kProbes = 16;  // rays that look for the surfaces in a cell; a square
+constexpr std::uint32_t kRaysPerBin = 2;
+
+using Values = std::array<float, HemisphereBins::kCount>;
+
+/// Averages each bin with its neighbors, because few rays per bin miss light near edges.
+Values blurred(const Values& values) {
+  constexpr int kRows = HemisphereBins::kRows, kColumns = HemisphereBins::kColumns;
+  Values result{};
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      float sum = 0;
+      for (int dy = -1; dy <= 1; ++dy) {
+        const int y = std::clamp(row + dy, 0, kRows - 1);
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int x = (column + dx + kColumns) % kColumns;
+          const int weight = (2 - std::abs(dx)) * (2 - std::abs(dy));
+          sum += static_cast<float>(weight) * values[static_cast<std::size_t>(y * kColumns + x)];
+        }
+      }
+      result[static_cast<std::size_t>(row * kColumns + column)] = sum / 16;
+    }
+  }
+  return result;
+}
+
+std::size_t cells_along(double extent, double cell_size) {
+  return static_cast<std::size_t>(std::clamp(std::ceil(extent / cell_size), 1.0, kCellsAcross));
+}
+
+}  // namespace
+
+/// A hit from which rays start.
+struct SkyVisibility::Start {
+  Ray ray;
+  Hit hit;
+  Vec3 n;  ///< geometric normal on the ray's side
+};
+
+SkyVisibility::SkyVisibility(const Scene& scene, const Bvh& bvh, const Shading& shading)
+    : bvh_(bvh), shading_(shading) {
+  std::optional<Extent> bounds;
+  for (const Object& object : scene.objects) {
+    const std::optional<Extent> extent = extent_of(object.shape);
+    if (!extent) continue;
+    if (!bounds) bounds = extent;
+    bounds = Extent{.low = glm::min(bounds->low, extent->low),
+                    .high = glm::max(bounds->high, extent->high)};
+  }
+  if (!bounds) return;
+  const DVec3 margin = kMargin * (bounds->high - bounds->low);
+  low_ = bounds->low - margin;
+  high_ = bounds->high + margin;
+  const DVec3 extent = high_ - low_;
+  cell_size_ = std::max({extent.x, extent.y, extent.z}) / kCellsAcross;
+  is_enclosed_ = cell_size_ > 0 && finds_enclosed();
+  if (!is_enclosed_) return;
+  std::size_t count = 6;
+  for (int axis = 0; axis < 3; ++axis) {
+    size_[axis] = cells_along(extent[axis], cell_size_);
+    count *= size_[axis];
+  }
+  cells_.resize(count);
+}
+
+bool SkyVisibility::finds_enclosed() const {
+  constexpr std::uint32_t kRays = 256, kGreatestPart = kRays / 8;
+  std::uint32_t escaped = 0;
+  for (std::uint32_t i = 0; i < kRays; ++i) {
+    const sampling::Sobol sobol(0, i);
+    const Vec2 xy = sobol.pair(0), z = sobol.pair(1), d = sobol.pair(2);
+    const HemisphereBins bins({.axis = 2, .is_down = z.y < 0.5F});
+    const auto bin = static_cast<int>(d.x * HemisphereBins::kCount);
+    const Ray ray{
+        .o = Vec3(low_ + (high_ - low_) * DVec3(xy.x, xy.y, z.x)),
+        .d = bins.direction(bin, {d.x * HemisphereBins::kCount - static_cast<float>(bin), d.y})};
+    if (light_along(ray, bvh_.intersect(ray)) > 0) ++escaped;
+  }
+  return escaped <= kGreatestPart;
+}
+
+float SkyVisibility::light_along(const Ray& ray, const std::optional<Hit>& hit) const {
+  std::uint64_t beyond = 0;
+  return transmittance(bvh_, shading_, true, ray, hit, std::nullopt, beyond);
+}
+
+std::size_t SkyVisibility::index(const Vec3& p, const Vec3& n) const {
+  const SignedAxis about = SignedAxis::nearest(n);
+  std::size_t index = static_cast<std::size_t>(2 * about.axis + (about.is_down ? 1 : 0));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place = (double{p[axis]} - low_[axis]) / cell_size_;
+    const auto last = static_cast<double>(size_[axis] - 1);
+    index = index * size_[axis] + static_cast<std::size_t>(std::clamp(place, 0.0, last));
+  }
+  return index;
+}
+
+const SkyVisibility::Cell& SkyVisibility::cell(std::size_t index) const {
+  return cells_.get(index, [&] { return fill(index); });
+}
+
+std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
+                                                        const SignedAxis& about) const {
+  DVec3 corner;
+  std::size_t rest = index;
+  for (int axis = 2; axis >= 0; --axis) {
+    corner[axis] = low_[axis] + (static_cast<double>(rest % size_[axis]) - kMargin) * cell_size_;
+    rest /= size_[axis];
+  }
+  const double edge = cell_size_ * (1 + 2 * kMargin);
+  constexpr std::uint32_t kMostLayers = 4;
+  std::vector<Start> found;
+  for (std::uint32_t i = 0; i < kProbes; ++i) {
+    // Probes fall against the axis through the cell, onto surfaces that face the axis.
+    const Vec2 place = sampling::Sobol(static_cast<std::uint32_t>(index), i).pair(0);
+    DVec3 from = corner;
+    from[about.axis] += about.is_down ? 0 : edge;
+    from[(about.axis + 1) % 3] += edge * double{place.x};
+    from[(about.axis + 2) % 3] += edge * double{place.y};
+    const Ray ray{.o = Vec3(from), .d = -about.direction(), .t_max = static_cast<float>(edge)};
+    std::optional<Hit> hit = bvh_.intersect(ray);
+    for (std::uint32_t layer = 0; hit && layer < kMostLayers; ++layer) {
+      const SurfacePoint at = shading_.point(ray, *hit).at;
+      const Vec3 n = at.front ? at.n : -at.n;
+      if (-glm::dot(n, ray.d) >= 0.5F) found.push_back({.ray = ray, .hit = *hit, .n = n});
+      hit = bvh_.next(ray, *hit);
+    }
+  }
+  return found;
+}
+
+/// The light that arrives from each bin, and the number of rays.
+struct SkyVisibility::Light {
+  Values sum{}, rays{};
+};
+
+void SkyVisibility::gather(std::uint32_t key, std::uint32_t round, const std::vector<Start>& from,
+                           const HemisphereBins& bins, Light& light) const {
+  std::vector<Bvh::Spawn> spawns;
+  std::vector<std::size_t> bin_of_spawn;
+  for (std::uint32_t i = 0; i < kRaysPerBin * HemisphereBins::kCount; ++i) {
+    const std::uint32_t bin = i / kRaysPerBin;
+    const sampling::Sobol sobol(key, round * kRaysPerBin * HemisphereBins::kCount + i);
+    const Start& start =
+        from[static_cast<std::size_t>(sobol.one(1) * static_cast<float>(from.size()))];
+    const Vec3 d = bins.direction(static_cast<int>(bin), sobol.pair(2));
+    if (!(glm::dot(d, start.n) > 0)) continue;
+    spawns.push_back({.ray = &start.ray, .hit = start.hit, .direction = d});
+    bin_of_spawn.push_back(bin);
+  }
+  std::vector<std::optional<Vec3>> origins(spawns.size());
+  bvh_.spawn_origins(spawns, origins);
+  std::vector<Ray> rays;
+  std::vector<PrimitiveId> left;
+  std::vector<std::size_t> bin_of_ray;
+  for (std::size_t i = 0; i < spawns.size(); ++i) {
+    if (!origins[i]) continue;
+    rays.push_back({.o = *origins[i], .t_min = 0, .d = spawns[i].direction});
+    left.push_back(spawns[i].hit.id);
+    bin_of_ray.push_back(bin_of_spawn[i]);
+  }
+  std::vector<std::optional<Hit>> hits(rays.size());
+  bvh_.intersect(rays, hits, left);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    light.sum[bin_of_ray[i]] += light_along(rays[i], hits[i]);
+    ++light.rays[bin_of_ray[i]];
+  }
+}
+
+std::unique_ptr<const SkyVisibility::Cell> SkyVisibility::fill(std::size_t index) const {
+  auto cell = std::make_unique<Cell>();
+  const std::size_t face = index / (size_[0] * size_[1] * size_[2]);
+  cell->about = {.axis = static_cast<int>(face / 2), .is_down = face % 2 != 0};
+  const std::vector<Start> from = starts(index, cell->about);
+  if (from.empty()) return cell;
+  const HemisphereBins bins(cell->about);
+  Light light;
+  const auto arriving = [&] { return std::accumulate(light.sum.begin(), light.sum.end(), 0.0F); };
+  const auto traced = [&] { return std::accumulate(light.rays.begin(), light.rays.end(), 0.0F); };
+  // Small openings need more rays.
+  constexpr std::uint32_t kMostRounds = 5;
+  constexpr float kSmallPart = 1.0F / 16;
+  for (std::uint32_t round = 0; round < kMostRounds; ++round) {
+    gather(static_cast<std::uint32_t>(index), round, from, bins, light);
+    if (arriving() > kSmallPart * traced()) break;
+  }
+  for (std::size_t bin = 0; bin < light.sum.size(); ++bin)
+    light.sum[bin] /= std::max(light.rays[bin], 1.0F);
+  const Values part = blurred(light.sum);
+  for (std::size_t bin = 0; bin < part.size(); ++bin)
+    cell->bins[bin] = static_cast<std::uint8_t>(255 * part[bin] + 0.5F);
+  return cell;
+}
+
+}  // namespace microtrace

@@ -1,0 +1,67 @@
+#pragma once
+/// Where enclosed scenes are open to their environment, for example through windows.
+
+#include "render/guiding/hemisphere_bins.hpp"
+#include "render/guiding/lazy_cells.hpp"
+#include "render/shading/shading.hpp"
+
+#include <microtrace/bvh.hpp>
+#include <microtrace/math.hpp>
+#include <microtrace/scene.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace microtrace {
+
+/// The directions from which the environment's light arrives, for each cell of a grid and each
+/// SignedAxis toward which the surfaces in the cell face. A cell is filled on first use and depends
+/// only on the scene, so the result is the same for any number of threads. Any number of threads
+/// may use the object.
+class SkyVisibility {
+ public:
+  /// The fraction of light that arrives from each of HemisphereBins, in units of 1/255.
+  struct Cell {
+    SignedAxis about{};
+    std::array<std::uint8_t, HemisphereBins::kCount> bins{};
+  };
+
+  /// The arguments must outlive this object. `bvh` and `shading` are those of the scene.
+  SkyVisibility(const Scene& scene, const Bvh& bvh, const Shading& shading);
+
+  /// True if most of the space within the scene's bounds sees little of the environment. Otherwise,
+  /// sampling by visibility gains too little.
+  [[nodiscard]] bool is_enclosed() const { return is_enclosed_; }
+
+  [[nodiscard]] std::size_t count() const { return cells_.count(); }
+  /// The index of the cell for surfaces at p with the unit normal n.
+  [[nodiscard]] std::size_t index(const Vec3& p, const Vec3& n) const;
+  [[nodiscard]] const Cell& cell(std::size_t index) const;
+
+ private:
+  struct Start;
+  struct Light;
+
+  [[nodiscard]] bool finds_enclosed() const;
+  [[nodiscard]] std::unique_ptr<const Cell> fill(std::size_t index) const;
+  /// The points of the cell's surfaces from which rays start.
+  [[nodiscard]] std::vector<Start> starts(std::size_t index, const SignedAxis& about) const;
+  /// Traces rays in all bins and adds the light that arrives.
+  void gather(std::uint32_t key, std::uint32_t round, const std::vector<Start>& from,
+              const HemisphereBins& bins, Light& light) const;
+  [[nodiscard]] float light_along(const Ray& ray, const std::optional<Hit>& hit) const;
+
+  const Bvh& bvh_;
+  const Shading& shading_;
+  DVec3 low_{0}, high_{0};
+  double cell_size_ = 0;
+  std::array<std::size_t, 3> size_{};  // number of cells on each axis
+  bool is_enclosed_ = false;
+  LazyCells<Cell> cells_;
+};
+
+}  // namespace microtrace
