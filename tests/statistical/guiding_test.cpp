@@ -12,6 +12,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <variant>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -157,6 +158,20 @@ TEST(Window, ThreadsAndOrderDoNotChangeTheBytes) {
   const Film one = shoot(scene, camera, {.size = {48, 32}, .samples = 4, .threads = 1});
   const Film three = shoot(scene, camera, {.size = {48, 32}, .samples = 4, .threads = 3});
   EXPECT_EQ(pixels_of(one), pixels_of(three));
+}
+
+TEST(Window, HugeRoomsAreRendered) {
+  Scene scene = room();
+  for (Object& object : scene.objects) {
+    Mesh& mesh = std::get<Mesh>(object.shape);
+    std::vector<Vec3> positions;
+    for (const Vec3& p : mesh.positions) positions.push_back(p * 0x1.fcp126F);
+    mesh.positions = positions;
+  }
+  const PerspectiveCamera camera{.pose = {.position = {-0x1p126, 0, 0}, .direction = {1, -0.3, 0}}};
+  // All arithmetic is exact and slow at this size.
+  const Film film = shoot(scene, camera, {.size = {2, 2}, .samples = 2, .max_depth = 2});
+  EXPECT_TRUE(std::isfinite(mean_of(film).y));
 }
 
 bool is_enclosed(const Scene& scene) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -46,6 +47,12 @@ Values blurred(const Values& values) {
     }
   }
   return result;
+}
+
+/// The point in float32. Margins may exceed its range.
+Vec3 in_range(const DVec3& p) {
+  const DVec3 most(double{std::numeric_limits<float>::max()});
+  return Vec3(glm::clamp(p, -most, most));
 }
 
 std::size_t cells_along(double extent, double cell_size) {
@@ -96,7 +103,7 @@ bool SkyVisibility::finds_enclosed() const {
     const HemisphereBins bins({.axis = 2, .is_down = z.y < 0.5F});
     const auto bin = static_cast<int>(d.x * HemisphereBins::kCount);
     const Ray ray{
-        .o = Vec3(low_ + (high_ - low_) * DVec3(xy.x, xy.y, z.x)),
+        .o = in_range(low_ + (high_ - low_) * DVec3(xy.x, xy.y, z.x)),
         .d = bins.direction(bin, {d.x * HemisphereBins::kCount - static_cast<float>(bin), d.y})};
     if (light_along(ray, bvh_.intersect(ray)) > 0) ++escaped;
   }
@@ -141,7 +148,7 @@ std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
     from[about.axis] += about.is_down ? 0 : edge;
     from[(about.axis + 1) % 3] += edge * double{place.x};
     from[(about.axis + 2) % 3] += edge * double{place.y};
-    const Ray ray{.o = Vec3(from), .d = -about.direction(), .t_max = static_cast<float>(edge)};
+    const Ray ray{.o = in_range(from), .d = -about.direction(), .t_max = static_cast<float>(edge)};
     std::optional<Hit> hit = bvh_.intersect(ray);
     for (std::uint32_t layer = 0; hit && layer < kMostLayers; ++layer) {
       const SurfacePoint at = shading_.point(ray, *hit).at;

@@ -59,7 +59,7 @@ class SkyVisibility {
   const Shading& shading_;
   DVec3 low_{0}, high_{0};
   double cell_size_ = 0;
-  std::array<std::size_t, 3> size_{};  // number of cells on each axis
+  glm::vec<3, std::size_t> size_{0};  // number of cells on each axis
   bool is_enclosed_ = false;
   LazyCells<Cell> cells_;
 };
