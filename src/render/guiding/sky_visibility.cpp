@@ -157,7 +157,25 @@ std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
       hit = bvh_.next(ray, *hit);
     }
   }
-  return found;
+  return without_covered(found, about);
+}
+
+std::vector<SkyVisibility::Start> SkyVisibility::without_covered(const std::vector<Start>& found,
+                                                                 const SignedAxis& about) const {
+  std::vector<Bvh::Spawn> spawns;
+  spawns.reserve(found.size());
+  for (const Start& start : found)
+    spawns.push_back({.ray = &start.ray, .hit = start.hit, .direction = about.direction()});
+  std::vector<std::optional<Vec3>> origins(found.size());
+  bvh_.spawn_origins(spawns, origins);
+  const auto near = static_cast<float>(cell_size_ * 0x1p-10);
+  std::vector<Start> open;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!origins[i]) continue;
+    if (!bvh_.occluded({.o = *origins[i], .t_min = 0, .d = spawns[i].direction, .t_max = near}))
+      open.push_back(found[i]);
+  }
+  return open;
 }
 
 /// The light that arrives from each bin, and the number of rays.
