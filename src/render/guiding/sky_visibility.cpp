@@ -61,11 +61,10 @@ std::size_t cells_along(double extent, double cell_size) {
 
 }  // namespace
 
-/// A hit from which rays start.
+/// A point from which rays start, slightly above a surface.
 struct SkyVisibility::Start {
-  Ray ray;
-  Hit hit;
-  Vec3 n;  ///< geometric normal on the ray's side
+  Vec3 p;
+  Vec3 n;  ///< the surface's geometric normal on the side of p
 };
 
 SkyVisibility::SkyVisibility(const Scene& scene, const Bvh& bvh, const Shading& shading)
@@ -140,6 +139,7 @@ std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
   }
   const double edge = cell_size_ * (1 + 2 * kMargin);
   constexpr std::uint32_t kMostLayers = 4;
+  const double above = cell_size_ * 0x1p-10;
   std::vector<Start> found;
   for (std::uint32_t i = 0; i < kProbes; ++i) {
     // Probes fall against the axis through the cell, onto surfaces that face the axis.
@@ -150,32 +150,21 @@ std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
     from[(about.axis + 2) % 3] += edge * double{place.y};
     const Ray ray{.o = in_range(from), .d = -about.direction(), .t_max = static_cast<float>(edge)};
     std::optional<Hit> hit = bvh_.intersect(ray);
+    double last = -above;
     for (std::uint32_t layer = 0; hit && layer < kMostLayers; ++layer) {
       const SurfacePoint at = shading_.point(ray, *hit).at;
       const Vec3 n = at.front ? at.n : -at.n;
-      if (-glm::dot(n, ray.d) >= 0.5F) found.push_back({.ray = ray, .hit = *hit, .n = n});
-      hit = bvh_.next(ray, *hit);
+      const std::optional<Hit> next = bvh_.next(ray, *hit);
+      // No light reaches a surface on which another one lies.
+      const double here = hit->t;
+      const bool is_covered = here - last < above || (next && next->t == hit->t);
+      if (!is_covered && -glm::dot(n, ray.d) >= 0.5F)
+        found.push_back({.p = in_range(DVec3(at.p) + above * DVec3(n)), .n = n});
+      last = here;
+      hit = next;
     }
   }
-  return without_covered(found, about);
-}
-
-std::vector<SkyVisibility::Start> SkyVisibility::without_covered(const std::vector<Start>& found,
-                                                                 const SignedAxis& about) const {
-  std::vector<Bvh::Spawn> spawns;
-  spawns.reserve(found.size());
-  for (const Start& start : found)
-    spawns.push_back({.ray = &start.ray, .hit = start.hit, .direction = about.direction()});
-  std::vector<std::optional<Vec3>> origins(found.size());
-  bvh_.spawn_origins(spawns, origins);
-  const auto near = static_cast<float>(cell_size_ * 0x1p-10);
-  std::vector<Start> open;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (!origins[i]) continue;
-    if (!bvh_.occluded({.o = *origins[i], .t_min = 0, .d = spawns[i].direction, .t_max = near}))
-      open.push_back(found[i]);
-  }
-  return open;
+  return found;
 }
 
 /// The light that arrives from each bin, and the number of rays.
@@ -185,8 +174,8 @@ struct SkyVisibility::Light {
 
 void SkyVisibility::gather(std::uint32_t key, std::uint32_t round, const std::vector<Start>& from,
                            const HemisphereBins& bins, Light& light) const {
-  std::vector<Bvh::Spawn> spawns;
-  std::vector<std::size_t> bin_of_spawn;
+  std::vector<Ray> rays;
+  std::vector<std::size_t> bin_of_ray;
   for (std::uint32_t i = 0; i < kRaysPerBin * HemisphereBins::kCount; ++i) {
     const std::uint32_t bin = i / kRaysPerBin;
     const sampling::Sobol sobol(key, round * kRaysPerBin * HemisphereBins::kCount + i);
@@ -194,22 +183,11 @@ void SkyVisibility::gather(std::uint32_t key, std::uint32_t round, const std::ve
         from[static_cast<std::size_t>(sobol.one(1) * static_cast<float>(from.size()))];
     const Vec3 d = bins.direction(static_cast<int>(bin), sobol.pair(2));
     if (!(glm::dot(d, start.n) > 0)) continue;
-    spawns.push_back({.ray = &start.ray, .hit = start.hit, .direction = d});
-    bin_of_spawn.push_back(bin);
-  }
-  std::vector<std::optional<Vec3>> origins(spawns.size());
-  bvh_.spawn_origins(spawns, origins);
-  std::vector<Ray> rays;
-  std::vector<PrimitiveId> left;
-  std::vector<std::size_t> bin_of_ray;
-  for (std::size_t i = 0; i < spawns.size(); ++i) {
-    if (!origins[i]) continue;
-    rays.push_back({.o = *origins[i], .t_min = 0, .d = spawns[i].direction});
-    left.push_back(spawns[i].hit.id);
-    bin_of_ray.push_back(bin_of_spawn[i]);
+    rays.push_back({.o = start.p, .t_min = 0, .d = d});
+    bin_of_ray.push_back(bin);
   }
   std::vector<std::optional<Hit>> hits(rays.size());
-  bvh_.intersect(rays, hits, left);
+  bvh_.intersect(rays, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     light.sum[bin_of_ray[i]] += light_along(rays[i], hits[i]);
     ++light.rays[bin_of_ray[i]];

@@ -48,12 +48,9 @@ class SkyVisibility {
 
   [[nodiscard]] bool finds_enclosed() const;
   [[nodiscard]] std::unique_ptr<const Cell> fill(std::size_t index) const;
-  /// The points of the cell's surfaces from which rays start.
+  /// Points slightly above the cell's surfaces. Their rays only guide the sampling, so they don't
+  /// need exact origins.
   [[nodiscard]] std::vector<Start> starts(std::size_t index, const SignedAxis& about) const;
-  /// Drops points on which other surfaces lie. Their rays would need much exact arithmetic and find
-  /// no light.
-  [[nodiscard]] std::vector<Start> without_covered(const std::vector<Start>& found,
-                                                   const SignedAxis& about) const;
   /// Traces rays in all bins and adds the light that arrives.
   void gather(std::uint32_t key, std::uint32_t round, const std::vector<Start>& from,
               const HemisphereBins& bins, Light& light) const;
