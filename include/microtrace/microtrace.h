@@ -202,6 +202,9 @@ typedef struct mt_render_options {
    * cancel. May be NULL. */
   int32_t (*progress)(void* user, double fraction);
   void* user;
+  /* Nonzero: removes noise by the library Open Image Denoise, for MT_PATH. mt_render() returns
+   * MT_UNSUPPORTED before rendering if the library is not installed. */
+  int32_t denoise;
 } mt_render_options;
 
 MT_API void mt_render_options_init(mt_render_options* options);

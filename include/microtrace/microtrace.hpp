@@ -10,6 +10,7 @@
 #include <microtrace/compare.hpp>
 #include <microtrace/dataset.hpp>
 #include <microtrace/defaults.hpp>
+#include <microtrace/denoise.hpp>
 #include <microtrace/digest.hpp>
 #include <microtrace/environment.hpp>
 #include <microtrace/error.hpp>

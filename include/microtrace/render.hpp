@@ -26,8 +26,9 @@ inline constexpr std::uint32_t kMaxSamples = 65536;
 
 /// The wall-clock time of each step of a rendering, in seconds.
 struct RenderTimes {
-  double build = 0;  ///< building the tree
-  double trace = 0;  ///< tracing and shading
+  double build = 0;    ///< building the tree
+  double trace = 0;    ///< tracing and shading
+  double denoise = 0;  ///< only if Denoiser::render() renders
 };
 
 /// Statistics of a rendering.

@@ -17,15 +17,19 @@ namespace microtrace {
 enum class SampledAov {
   variance,        ///< Y: estimated variance of the mean luminance (PixelSum::variance)
   samples,         ///< N: number of samples of the pixel
-  denoise_albedo,  ///< R, G, B: mean base color of the first visible surface, in [0, 1]; samples
-                   ///< without a surface count as 0
-  denoise_normal,  ///< X, Y, Z: mean shading normal of the first visible surface, world space,
-                   ///< facing the viewer; samples without a surface count as 0; shorter than 1
-                   ///< where normals differ between samples
+  denoise_albedo,  ///< R, G, B: mean color of the surfaces that are seen directly, in mirrors and
+                   ///< through smooth glass, without lighting, in [0, 1]
+  denoise_normal,  ///< X, Y, Z: mean shading normal of these surfaces, world space, facing the
+                   ///< viewer; shorter than 1 where normals differ between samples; 0 where the
+                   ///< background is seen
+  emission,        ///< R, G, B: mean light that arrives without being scattered: from emissive
+                   ///< surfaces, the environment and the background, composited like the colors
+  noisy,           ///< R, G, B: the colors before denoising
 };
 
-inline constexpr std::array kSampledAovs = {SampledAov::variance, SampledAov::samples,
-                                            SampledAov::denoise_albedo, SampledAov::denoise_normal};
+inline constexpr std::array kSampledAovs = {SampledAov::variance,       SampledAov::samples,
+                                            SampledAov::denoise_albedo, SampledAov::denoise_normal,
+                                            SampledAov::emission,       SampledAov::noisy};
 
 /// The AOV's name on the command line, which is also the part of channel names before the dot.
 [[nodiscard]] MICROTRACE_EXPORT std::string_view name_of(SampledAov aov);

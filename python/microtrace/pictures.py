@@ -11,6 +11,8 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from microtrace_program import find_denoiser
+
 from . import _core
 from ._arrays import as_color, as_crop, as_integer, as_size, as_threads
 from .cameras import Camera, PerspectiveCamera, Vector
@@ -36,6 +38,8 @@ Quantity = Literal[
     "samples",
     "denoise_albedo",
     "denoise_normal",
+    "emission",
+    "noisy",
 ]
 ToneMap = Literal["none", "khronos-pbr-neutral", "aces", "agx"]
 
@@ -62,12 +66,17 @@ class Picture(Mapping[str, Array]):
     - variance, samples: float32; the variance of the mean displayed luminance, and the number of
       samples.
     - denoise_albedo, denoise_normal: float32, 3 channels; means over the samples.
+    - emission, noisy: float32, 3 channels; light that arrives without being scattered, and the
+      colors before denoising.
     """
 
-    def __init__(self, arrays: dict[str, Array], exposure: float, tone_map: str) -> None:
+    def __init__(
+        self, arrays: dict[str, Array], exposure: float, tone_map: str, denoiser: str = ""
+    ) -> None:
         self._arrays = arrays
         self._exposure = exposure
         self._tone_map = tone_map
+        self._denoiser = denoiser
 
     def __getitem__(self, name: str) -> Array:
         try:
@@ -131,11 +140,13 @@ class Picture(Mapping[str, Array]):
             raise ValueError("save one picture of the stack, such as picture.one(0)")
         is_exr = Path(path).suffix.lower() == ".exr"
         rest = {k: v for k, v in self.items() if k != "color"} if is_exr else {}
-        _core.save(self["color"], *self._display(exposure, tone_map), rest, path)
+        settings = self._display(exposure, tone_map)
+        _core.save(self["color"], *settings, self._denoiser, rest, path)
 
     def one(self, index: int) -> Picture:
         """Returns one picture of a stack, by its camera's index. The arrays are views."""
-        return Picture({k: v[index] for k, v in self.items()}, self._exposure, self._tone_map)
+        arrays = {k: v[index] for k, v in self.items()}
+        return Picture(arrays, self._exposure, self._tone_map, self._denoiser)
 
     def _display(self, exposure: float | None, tone_map: str | None) -> tuple[float, str]:
         return (
@@ -196,6 +207,7 @@ def render(
     seed: int = 0,
     max_depth: int = 32,
     crop: tuple[int, int, int, int] | None = None,
+    denoise: bool = False,
     threads: int = 0,
     progress: Callable[[float], bool | None] | bool = False,
 ) -> Picture:
@@ -219,6 +231,8 @@ def render(
         max_depth: maximum path length. 1 shows only emission; 2 adds direct light.
         crop: (x0, y0, x1, y1): renders only the pixels with x0 <= x < x1 and y0 <= y < y1 of the
             picture. They equal those of the whole picture. Arrays have the size of this part.
+        denoise: removes the noise of path-traced colors by the library Open Image Denoise, which
+            pip install "microtrace[denoise]" installs.
         threads: number of threads; 0 means all processors. It has no effect on the arrays.
         progress: a function that is called with the finished fraction of the work, in [0, 1]. It
             cancels the rendering by returning False. True shows a progress bar if tqdm is
@@ -228,10 +242,14 @@ def render(
         ValueError: an argument is invalid.
         CanceledError: progress returned False.
         LimitError: there is not enough memory.
+        UnsupportedError: Open Image Denoise is not installed.
     """
     prepared = _prepared(scene)
     size = prepared._core.size if size is None else as_size(size)
-    names = _checked(aovs)
+    wanted = _checked(aovs)
+    method = integrator or ("flat" if prepared._core.is_flat else "path")
+    denoiser = _denoiser(wanted, method) if denoise else ""
+    names = _with_features(wanted) if denoise else wanted
     if camera is None:
         cameras: list[Camera] = [prepared._core.default_camera(size)]
         is_stack = False
@@ -268,11 +286,41 @@ def render(
             outputs = {name: array[k] for name, array in arrays.items()}
             share = None if show is None else (lambda x, k=k: show((k + x) / len(cameras)))
             display = _core.render(prepared._core, each, outputs, {**arguments, "progress": share})
+    if denoise:
+        _denoise(arrays, wanted, as_threads(threads))
     for name, array in arrays.items():
         if array.shape[-1] == 1:
             array = array[..., 0]
         arrays[name] = array if is_stack else array[0]
-    return Picture(arrays, *display)
+    return Picture(arrays, *display, denoiser)
+
+
+#: The arrays that denoising needs.
+_FEATURES = ("denoise_albedo", "denoise_normal", "emission")
+
+
+def _denoiser(names: list[str], integrator: str) -> str:
+    """Returns the name of the denoiser. Raises an error if the arrays can't be denoised."""
+    if "color" not in names:
+        raise ValueError("denoise needs color in aovs")
+    if integrator == "flat":
+        raise ValueError('denoise needs integrator="path"; other pictures have no noise')
+    find_denoiser()
+    return _core.denoiser_name()
+
+
+def _with_features(names: list[str]) -> list[str]:
+    return names + [name for name in _FEATURES if name not in names]
+
+
+def _denoise(arrays: dict[str, Array], wanted: list[str], threads: int) -> None:
+    """Denoises the colors of a stack of pictures in place. Removes arrays that are not wanted."""
+    features = {name: arrays[name] for name in _FEATURES}
+    for k, color in enumerate(arrays["color"]):
+        _core.denoise(color, {name: array[k] for name, array in features.items()}, threads)
+    for name in _FEATURES:
+        if name not in wanted:
+            del arrays[name]
 
 
 def _prepared(scene: Scene | PreparedScene) -> PreparedScene:

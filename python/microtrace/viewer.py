@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from html import escape
 from types import TracebackType
 
+from microtrace_program import find_denoiser
+
 from . import _core
 
 
@@ -29,6 +31,7 @@ class View:
         allow_host: str,
         height: int,
     ) -> None:
+        find_denoiser()  # the page offers to denoise
         self._core = _core.Viewer(core, name, words, port, allow_host)
         self._height = height
         # A forked process has no thread that serves the page.

@@ -6,6 +6,8 @@
 #include "scene_reader.hpp"
 #include "scene_writer.hpp"
 
+#include <microtrace/denoise.hpp>
+
 #include <algorithm>
 #include <memory>
 #include <mutex>
@@ -57,6 +59,8 @@ constexpr std::array kQuantities = {
     Quantity{"samples", "samples", "N"},
     Quantity{"denoise_albedo", "denoise_albedo", "RGB"},
     Quantity{"denoise_normal", "denoise_normal", "XYZ"},
+    Quantity{"emission", "emission", "RGB"},
+    Quantity{"noisy", "noisy", "RGB"},
 };
 
 /// A channel of the film, and the destination of its values.
@@ -272,8 +276,10 @@ Film film_of(const Pixels<const float>& color, double exposure, const std::strin
 }
 
 void save(const Pixels<const float>& color, double exposure, const std::string& tone_map,
-          const nb::dict& channels, const std::filesystem::path& path) {
-  const Film film = film_of(color, exposure, tone_map, channels);
+          const std::string& denoiser, const nb::dict& channels,
+          const std::filesystem::path& path) {
+  Film film = film_of(color, exposure, tone_map, channels);
+  film.denoiser = denoiser;
   const nb::gil_scoped_release release;
   save_image(film, path);
 }
@@ -284,6 +290,19 @@ void encode(const Pixels<const float>& color, double exposure, const std::string
   const nb::gil_scoped_release release;
   for (std::uint32_t y = 0; y < film.size().height; ++y)
     io::encode_row(film, y, to.data() + std::size_t{y} * to.shape(1) * to.shape(2));
+}
+
+std::string denoiser_name() {
+  return Denoiser().name();
+}
+
+/// Replaces the colors by denoised ones. `features` are the arrays of kDenoiseFeatures.
+void denoise(const Pixels<float>& color, const nb::dict& features, unsigned threads) {
+  Film film = film_of(Pixels<const float>(color), 0, "none", features);
+  run_interruptible([&](const std::function<bool()>& cancel) {
+    Denoiser().denoise(film, {.threads = threads, .progress = [&](double) { return !cancel(); }});
+  });
+  copy_colors(film, color);
 }
 
 nb::object frame_scene(const Prepared& self, double azimuth, double elevation, double fov,
@@ -303,6 +322,8 @@ void bind_pictures(nb::module_& module) {
   module.attr("quantities") = nb::tuple(names);
   module.def("render", &render_into);
   module.def("save", &save);
+  module.def("denoiser_name", &denoiser_name);
+  module.def("denoise", &denoise);
   module.def("encode", &encode);
   module.def("frame", &frame_scene);
 }

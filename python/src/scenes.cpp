@@ -75,6 +75,7 @@ void bind_scenes(nb::module_& module) {
   nb::class_<Prepared>(module, "Prepared")
       .def("__init__", &prepare, nb::arg("scene"), nb::arg("previous").none(), nb::arg("threads"),
            nb::arg("fast_build"))
+      .def_prop_ro("is_flat", [](const Prepared& self) { return self.is_flat; })
       .def_prop_ro("size",
                    [](const Prepared& self) {
                      const ImageSize size = self.scene.scene().size;

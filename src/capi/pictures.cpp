@@ -3,6 +3,7 @@
 
 #include <microtrace/aov.hpp>
 #include <microtrace/defaults.hpp>
+#include <microtrace/denoise.hpp>
 #include <microtrace/framing.hpp>
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
@@ -118,8 +119,11 @@ mt_status mt_render(const mt_scene* scene, const mt_render_options* options, mt_
         return own.progress(own.user, fraction) != 0;
       };
     }
-    *film =
-        new mt_film{render(scene->prepared, camera_of(own, content, size), size, render_options)};
+    const Camera camera = camera_of(own, content, size);
+    std::optional<Denoiser> denoiser;
+    if (own.denoise != 0) denoiser.emplace();
+    *film = new mt_film{denoiser ? denoiser->render(scene->prepared, camera, size, render_options)
+                                 : render(scene->prepared, camera, size, render_options)};
   });
 }
 

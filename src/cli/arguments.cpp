@@ -47,6 +47,10 @@ void apply_defaults(Arguments& a, SceneFormat format) {
     refuse_usage("--aov: " + std::string(name_of(a.aovs.sampled.front())) +
                  " needs path tracing; use --integrator path");
   }
+  if (a.denoises && !a.is_path_traced())
+    refuse_usage(
+        "--denoise needs path tracing, because other pictures have no noise; use "
+        "--integrator path");
   if (a.sampling.samples == 0) a.sampling.samples = default_samples(*a.integrator);
   check_sampling(a.sampling, a.is_path_traced());
   const std::optional<Vec3> color = default_background(format, *a.integrator);

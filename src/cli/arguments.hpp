@@ -131,6 +131,7 @@ struct Arguments {
   std::optional<PixelRect> crop{};
   EnvironmentOptions environment{};
   DisplayOptions display{};
+  bool denoises = false;
   SamplingOptions sampling{};
   /// Absent until apply_defaults() unless --integrator is given.
   std::optional<IntegratorOptions> integrator{};

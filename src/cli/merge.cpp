@@ -9,11 +9,14 @@
 #include "cli/report/written_files.hpp"
 
 #include <microtrace/checkpoint.hpp>
+#include <microtrace/denoise.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -47,8 +50,22 @@ void skip_missing(std::vector<std::filesystem::path>& files, const Arguments& ar
   });
 }
 
-/// Merges the checkpoints of one picture.
-void merge_picture(const Arguments& arguments, const Sequence& sequence, std::uint32_t index) {
+/// Returns what the picture contains. Throws Error (usage) if it can't be denoised.
+FilmContents contents_of(const Checkpoint& all, bool denoises) {
+  if (denoises && lacks_denoise_features(all.channels)) {
+    throw Error(ErrorKind::usage, "",
+                "--denoise: the checkpoints lack the channels for denoising; give --denoise to "
+                "the runs with --shard too");
+  }
+  const bool has_channels = std::ranges::any_of(all.channels, [&](const Channel& channel) {
+    return !(denoises && is_denoise_feature(channel));
+  });
+  return {.alpha = all.has_alpha, .channels = has_channels};
+}
+
+/// Merges the checkpoints of one picture. `denoiser` is null if the picture is not denoised.
+void merge_picture(const Arguments& arguments, const Sequence& sequence, std::uint32_t index,
+                   const Denoiser* denoiser) {
   const auto begin = std::chrono::steady_clock::now();
   const ReadFiles inputs;
   MemoryBudget budget(default_memory_limit());
@@ -61,8 +78,7 @@ void merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
                               merged = sequence.checkpoint(index);
   Checkpoint all = load_checkpoint(files.front());
   if (!merged.empty()) check_checkpoint_path(merged);
-  if (!picture.empty())
-    check_image_path(picture, {.alpha = all.has_alpha, .channels = !all.channels.empty()});
+  if (!picture.empty()) check_image_path(picture, contents_of(all, denoiser != nullptr));
   check_outputs_differ({{"--output", picture}, {"--checkpoint", merged}});
   add_files(all, std::span(files).subspan(1), memory, true);
   check_no_input_is_overwritten(inputs, {{"--output", picture}, {"--checkpoint", merged}});
@@ -75,6 +91,10 @@ void merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
   if (!merged.empty()) save_checkpoint(all, merged);
   if (!picture.empty()) {
     Film film = picture_of(all);
+    if (denoiser != nullptr) {
+      denoiser->denoise(film, {.memory = &budget});
+      std::erase_if(film.channels, is_denoise_feature);
+    }
     apply_display(film, arguments.display);
     save_image(film, picture, arguments.ppm);
   }
@@ -92,8 +112,10 @@ void merge_samples(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "", "merge needs --output or --checkpoint");
   const Sequence sequence(arguments);
   check_paths(ReadFiles(), sequence);
+  std::optional<Denoiser> denoiser;
+  if (arguments.denoises && !arguments.output.empty()) denoiser.emplace();
   for (std::uint32_t index = 0; index < sequence.count(); ++index)
-    merge_picture(arguments, sequence, index);
+    merge_picture(arguments, sequence, index, denoiser ? &*denoiser : nullptr);
 }
 
 }  // namespace microtrace::cli

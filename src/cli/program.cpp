@@ -20,6 +20,7 @@
 #include "cli/view/view.hpp"
 #include "float_environment.hpp"
 
+#include <microtrace/denoise.hpp>
 #include <microtrace/digest.hpp>
 #include <microtrace/read_files.hpp>
 
@@ -59,6 +60,8 @@ int render_pictures(cli::Arguments arguments) {
   cli::Warnings log(arguments);
   std::optional<Environment> environment;
   std::optional<cli::SampleFiles> samples;
+  std::optional<Denoiser> denoiser;
+  if (arguments.denoises && !arguments.sampling.shard && !arguments.validate) denoiser.emplace();
   std::optional<cli::DisplayServer> viewer;
   if (arguments.display_server && !arguments.validate)
     viewer.emplace(*arguments.display_server, arguments.quiet);
@@ -87,7 +90,8 @@ int render_pictures(cli::Arguments arguments) {
     const cli::PictureFiles files{.picture = sequence.picture(index),
                                   .sidecar = sequence.sidecar(index),
                                   .samples = samples ? &*samples : nullptr,
-                                  .viewer = viewer ? &*viewer : nullptr};
+                                  .viewer = viewer ? &*viewer : nullptr,
+                                  .denoiser = denoiser ? &*denoiser : nullptr};
     const auto report_progress = [&](double fraction) {
       if (progress) progress((index + fraction) / sequence.count());
     };

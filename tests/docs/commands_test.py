@@ -22,6 +22,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
 from program import PROGRAM, ProgramTest, environment
 
 SOURCE = Path(sys.argv[2]).resolve()
+# Commands with --denoise need a library, which this one stands for.
+os.environ.setdefault("MICROTRACE_OIDN_PATH", str(Path(PROGRAM).parents[2] / "tests/support/libfake_oidn.so"))
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
 
 # Patterns of commands that other tests run.
@@ -37,6 +39,7 @@ RUN_ELSEWHERE = [
     r"(python3 )?(tests|bench)/[\w/]+\.(py|sh|txt)( .*)?$",  # see test_scripts_and_presets_exist
     r"(array=\$\()?sbatch .*|kubectl apply -f clusters/kubernetes/dataset.yaml$",  # slurm, python.tests
     r"ssh -L \d+:127\.0\.0\.1:\d+ server microtrace view ",  # microtrace view itself: view.server
+    r"pip install --no-deps --target ~/oidn pyoidn$|export MICROTRACE_OIDN_PATH=",  # like python/tests/requirements.txt
     r"ffmpeg |assimp |ulimit |sudo apt",
     r"(find_package|target_link_libraries)\(|#include |(const )?auto |microtrace::|[\w.]+\.py FOLDER",  # package.consumer, docs.library
 ]

@@ -22,6 +22,7 @@ MAY_INCLUDE = {
     "render": {"base", "simd", "scene"},
     "explain": {"base", "exact", "scene", "accel", "render"},
     "io": {"base", "scene"},
+    "denoise": {"base", "io"},
     "dataset": {"base", "scene", "queries", "io"},
     "cli": {"base", "scene", "io"},
     "capi": {"base", "scene"},

@@ -16,6 +16,8 @@ import numpy as np
 import numpy.typing as npt
 from distributed import Client, get_worker
 
+from microtrace_program import find_denoiser
+
 from .. import _core
 from ..errors import Diagnostic, error_of, warn
 from ..pictures import _shown
@@ -81,6 +83,7 @@ class _Views:
             words = _moved(content.words, content.folder, root)
             if not any(word.startswith("--threads") for word in words):
                 words.append(f"--threads={get_worker().state.nthreads}")
+            find_denoiser()
             self._core = _core.Dataset(words, content.folder, root)
         except BaseException:
             shutil.rmtree(self.folder, ignore_errors=True)
@@ -211,6 +214,7 @@ def dataset(
                 warned.add(key)
                 warn([each])
 
+    find_denoiser()
     core, names = _core.read_dataset(words)
     warn_once(core.take_warnings())
     store = Store(os.fspath(url), storage_options or {})

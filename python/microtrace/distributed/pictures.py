@@ -12,7 +12,16 @@ from distributed import Client
 from .._arrays import as_size
 from ..cameras import Camera, Vector
 from ..lights import Environment
-from ..pictures import _QUANTITIES, Picture, Quantity, _checked, _shown
+from ..pictures import (
+    _QUANTITIES,
+    Picture,
+    Quantity,
+    _checked,
+    _denoise,
+    _denoiser,
+    _shown,
+    _with_features,
+)
 from ..pictures import render as render_here
 from ..prepared import PreparedScene
 from ..scene import Scene
@@ -117,6 +126,7 @@ def render(
     filter: Literal["box", "blackman-harris"] = "box",
     seed: int = 0,
     max_depth: int = 32,
+    denoise: bool = False,
     threads: int = 1,
     retries: int = 3,
     progress: Callable[[float], bool | None] | bool = False,
@@ -134,6 +144,7 @@ def render(
         camera, size, spp, aovs: see microtrace.render().
         integrator, environment, background, transparent: see microtrace.render().
         filter, seed, max_depth: see microtrace.render().
+        denoise: see microtrace.render(). The client denoises the finished pictures.
         threads: number of threads of each task; 0 means all processors of the worker's machine.
         retries: how often a part of a picture is rendered again after errors that another worker
             may not have, such as a lack of memory.
@@ -151,11 +162,13 @@ def render(
         OSError, MemoryError: all retries failed.
     """
     require_synchronous(client)
-    names = _checked(aovs)
+    wanted = _checked(aovs)
+    names = _with_features(wanted) if denoise else wanted
     if not isinstance(scene, (Scene, PreparedScene)):
         raise TypeError(f"expected a Scene or a PreparedScene, not {type(scene)}")
     if isinstance(scene, PreparedScene):
         scene = scene.scene
+    denoiser = _denoiser(wanted, integrator or scene.integrator) if denoise else ""
     is_stack = isinstance(camera, Sequence)
     cameras: list[Camera | None] = list(camera) if isinstance(camera, Sequence) else [camera]
     width, height = as_size(scene.size if size is None else size)
@@ -195,6 +208,8 @@ def render(
             RangeRun(
                 client, "microtrace-render", render_tiles, job, count, receive, show, retries
             ).run()
+    if denoise:
+        _denoise(arrays, wanted, 0)
     if not is_stack:
         arrays = {name: array[0] for name, array in arrays.items()}
-    return Picture(arrays, *display)
+    return Picture(arrays, *display, denoiser)

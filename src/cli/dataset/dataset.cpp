@@ -34,8 +34,10 @@ void check_names(const Arguments& arguments, const std::vector<DatasetView>& vie
 }
 
 DatasetIdentity identity_of(const Arguments& arguments, const std::vector<DatasetView>& views,
-                            std::uint64_t digest) {
-  return {.program = "microtrace " MICROTRACE_VERSION_TEXT,
+                            std::uint64_t digest, const std::string& denoiser) {
+  std::string program = "microtrace " MICROTRACE_VERSION_TEXT;
+  if (!denoiser.empty()) program += " with " + denoiser;
+  return {.program = program,
           .scene = fs::path(arguments.scene).filename().string(),
           .digest = digest,
           .options = arguments.dataset.identity,
@@ -68,7 +70,7 @@ Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
   check_names(arguments_, views_);
   renderer_.emplace(arguments_, warnings_);
   renderer_->load(views_.front());  // the same view in all shards, so that the digests agree
-  identity_ = identity_of(arguments_, views_, digest.value());
+  identity_ = identity_of(arguments_, views_, digest.value(), renderer_->denoiser());
 }
 
 std::vector<std::uint32_t> Dataset::order() const {

@@ -38,6 +38,7 @@ ViewRenderer::ViewRenderer(Arguments& arguments, Warnings& warnings)
   file_.emplace(arguments_.scene, arguments_.load);
   apply_defaults(arguments_, file_->format());
   integrator_ = make_integrator(*arguments_.integrator);
+  if (arguments_.denoises) denoiser_.emplace();
 }
 
 void ViewRenderer::load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings) {
@@ -159,7 +160,8 @@ std::vector<std::string> ViewRenderer::render(const DatasetView& view, std::uint
   if (is_annotated) need(Aov::id);
   if (is_bop) need(Aov::depth);
   const Camera camera = camera_of(view, size);
-  Film film = microtrace::render(*prepared_, camera, size, options);
+  Film film = denoiser_ ? denoiser_->render(*prepared_, camera, size, options)
+                        : microtrace::render(*prepared_, camera, size, options);
   apply_display(film, arguments_.display);
   std::vector<std::string> names;
   const bool is_exr =

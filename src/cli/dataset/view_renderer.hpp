@@ -6,6 +6,7 @@
 
 #include <microtrace/annotations.hpp>
 #include <microtrace/dataset.hpp>
+#include <microtrace/denoise.hpp>
 #include <microtrace/digest.hpp>
 #include <microtrace/environment.hpp>
 #include <microtrace/io.hpp>
@@ -31,6 +32,9 @@ class ViewRenderer {
 
   /// Loads the scene of a view, without preparing it. Throws Error.
   void load(const DatasetView& view);
+
+  /// The name of the pictures' denoiser; empty if there is none.
+  [[nodiscard]] std::string denoiser() const { return denoiser_ ? denoiser_->name() : ""; }
 
   /// The loaded scene.
   [[nodiscard]] const Scene& scene() const { return *scene_; }
@@ -62,6 +66,7 @@ class ViewRenderer {
   std::optional<PreparedScene> prepared_;  ///< of scene_
   std::shared_ptr<const SharedTables> tables_;
   std::unique_ptr<Integrator> integrator_;
+  std::optional<Denoiser> denoiser_;
 };
 
 }  // namespace microtrace::cli

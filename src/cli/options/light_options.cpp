@@ -56,6 +56,11 @@ constexpr std::array kLightOptions{
 static_assert(is_complete(kLightOptions));
 
 constexpr std::array kDisplayOptions{
+    Option{.names = "--denoise",
+           .help = "remove the noise of a path-traced picture by the library Open Image Denoise, "
+                   "which must be installed",
+           .samples = Samples::keep,
+           .set = [](Arguments& a, const OptionValue&) { a.denoises = true; }},
     Option{.names = "--exposure",
            .metavar = "EV",
            .help = "exposure of 8-bit pictures in stops, -64 to 64: radiance is multiplied by 2^EV",

@@ -70,7 +70,7 @@ std::vector<OptionGroup> option_groups(Command command) {
             {"Camera", camera_options()},
             {"Integrator and samples", sampling_options()},
             {"Light", light_options()},
-            {"Display", rows(display_options(), "--exposure", "--tonemap")},
+            {"Display", rows(display_options(), "--denoise", "--tonemap")},
             {"glTF assets", rows(asset_options(), "--time", "--animation")},
             {"glTF assets", rows(asset_options(), "--variant", "--allow-path")},
             {"Long renderings", rows(checkpoint_options(), "--target-error", "--time-limit")},

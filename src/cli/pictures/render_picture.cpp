@@ -81,16 +81,22 @@ void show_passes(RenderOptions& options, DisplayServer& viewer, const std::strin
 Film render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize size,
                      const RenderOptions& options, const Arguments& arguments,
                      const PictureFiles& files) {
-  if (files.samples == nullptr || files.samples->checkpoint().empty())
+  const auto draw = [&] {
+    if (files.denoiser != nullptr) return files.denoiser->render(scene, camera, size, options);
     return render(scene, camera, size, options);
+  };
+  if (files.samples == nullptr || files.samples->checkpoint().empty()) return draw();
   std::optional<Film> film;
   {
     const DelayedSignals delay;
     try {
-      film = render(scene, camera, size, options);
+      film = draw();
       files.samples->keep(film->channels);
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::canceled) throw;
+      if (error.kind() != ErrorKind::canceled) {
+        files.samples->save();
+        throw;
+      }
     }
     files.samples->save();
   }
@@ -155,6 +161,8 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
     options.passes = Passes{.target_error = arguments.sampling.target_error,
                             .time_limit = arguments.sampling.time_limit};
   }
+  // Merging the shards denoises the picture.
+  if (arguments.denoises && arguments.sampling.shard) add_denoise_features(options);
   if (needs_ids_for_sidecar_only(arguments, files)) options.aovs.push_back(Aov::id);
   const std::string shown_name =
       (arguments.sampling.shard || files.picture == "-" ? arguments.scene : files.picture.string());

@@ -7,6 +7,7 @@
 #include "cli/report/warnings.hpp"
 
 #include <microtrace/camera.hpp>
+#include <microtrace/denoise.hpp>
 #include <microtrace/scene.hpp>
 
 #include <cstdint>
@@ -15,12 +16,13 @@
 
 namespace microtrace::cli {
 
-/// The files of a picture, and the viewer that shows it.
+/// The files of a picture, the viewer that shows it, and its denoiser.
 struct PictureFiles {
   std::filesystem::path picture;
   std::filesystem::path sidecar;    ///< empty if no sidecar is written
   SampleFiles* samples = nullptr;   ///< the checkpoints to read and write; null if there are none
   DisplayServer* viewer = nullptr;  ///< null if there is none
+  const Denoiser* denoiser = nullptr;  ///< null if the picture is not denoised
 };
 
 /// Throws the errors that writing a sequence's pictures to their paths would throw. Called before

@@ -82,17 +82,17 @@ void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
       kind == Statistics::json
           ? R"({"objects": %zu, "primitives": %zu, "width": %u, "height": %u, "threads": %u, )"
             R"("load_s": %.6f, "read_s": %.6f, "validate_s": %.6f, "bake_s": %.6f, )"
-            R"("build_s": %.6f, "trace_s": %.6f, "render_s": %.6f, "write_s": %.6f, )"
+            R"("build_s": %.6f, "trace_s": %.6f, "denoise_s": %.6f, "render_s": %.6f, "write_s": %.6f, )"
             R"("peak_memory_mib": %.1f, "counted_memory_mib": %.1f, "samples_per_pixel": %u, "rays": %.0f, "rays_per_s": %.0f)"
           : "objects      %zu\nprimitives   %zu\npicture      %u x %u\nthreads      %u\n"
             "load         %.6f s\n  read       %.6f s\n  validate   %.6f s\n  bake       %.6f s\n"
-            "build tree   %.6f s\ntrace        %.6f s\nrender       %.6f s\n"
+            "build tree   %.6f s\ntrace        %.6f s\ndenoise      %.6f s\nrender       %.6f s\n"
             "write        %.6f s\npeak memory  %.1f MiB, %.1f MiB of it counted\nsamples      %u a "
             "pixel\n"
             "rays         %.0f\nrays/s       %.0f\n";
   std::fprintf(stderr, format, scene.objects.size(), primitives, size.width, size.height, threads,
                load_, load_times_.read, load_times_.validate, load_times_.bake, times_.build,
-               times_.trace, render_, write_, peak_memory_mib(),
+               times_.trace, times_.denoise, render_, write_, peak_memory_mib(),
                static_cast<double>(memory.peak()) / (1 << 20), counts.samples_per_pixel, rays,
                rays / render_);
   print_rays(counts.rays, kind == Statistics::json);

@@ -34,6 +34,7 @@ PictureJob make_job(SceneSource& source, Arguments arguments) {
                  .camera = {},
                  .integrator = nullptr,
                  .options = {},
+                 .denoiser = {},
                  .display = {}};
   Arguments& a = job.arguments;
   apply_defaults(a, job.scene->format);
@@ -62,6 +63,7 @@ PictureJob make_job(SceneSource& source, Arguments arguments) {
     job.options.passes =
         Passes{.target_error = a.sampling.target_error, .time_limit = a.sampling.time_limit};
   }
+  if (a.denoises) job.denoiser.emplace();
   Film shown({.width = 1, .height = 1});
   shown.display = job.integrator->display(shown);
   apply_display(shown, a.display);
@@ -70,7 +72,9 @@ PictureJob make_job(SceneSource& source, Arguments arguments) {
 }
 
 Film render(const PictureJob& job) {
-  Film film = microtrace::render(job.scene->prepared, job.camera, job.size, job.options);
+  const PreparedScene& scene = job.scene->prepared;
+  Film film = job.denoiser ? job.denoiser->render(scene, job.camera, job.size, job.options)
+                           : microtrace::render(scene, job.camera, job.size, job.options);
   apply_display(film, job.arguments.display);
   return film;
 }

@@ -5,11 +5,13 @@
 #include "cli/view/scene_source.hpp"
 
 #include <microtrace/camera.hpp>
+#include <microtrace/denoise.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/render.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace microtrace::cli {
@@ -26,7 +28,8 @@ struct PictureJob {
   Camera camera;  ///< in scene coordinates
   std::unique_ptr<Integrator> integrator;
   RenderOptions options;  ///< refers to the integrator
-  Display display;        ///< of films that were rendered in passes
+  std::optional<Denoiser> denoiser;
+  Display display;  ///< of films that were rendered in passes
 };
 
 /// Loads the scene if necessary. Throws Error.

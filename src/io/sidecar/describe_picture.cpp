@@ -148,6 +148,7 @@ std::string describe_picture(const Scene& scene, const Camera& camera, const Fil
   text.append(",\n  \"height\": ").append(number(film.whole.height));
   text.append(",\n  \"crop\": ");
   text.append(array({film.x0, film.y0, film.x0 + size.width, film.y0 + size.height}));
+  if (!film.denoiser.empty()) text.append(",\n  \"denoiser\": ").append(quoted(film.denoiser));
   text.append(",\n  \"camera\": ").append(camera_text(camera, film.whole, scene.origin));
   text.append(",\n  \"objects\": ");
   text.append(list(scene.objects.size(), [&](std::size_t i) {

@@ -1,6 +1,6 @@
 #include "render/aovs/sampled_aov_painter.hpp"
 
-#include "render/aovs/sights.hpp"
+#include "render/aovs/feature_tracer.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/tiles.hpp"
@@ -17,9 +17,9 @@
 namespace microtrace {
 namespace {
 
-/// The number of samples per pixel whose first surface is evaluated, which suffices to antialias
-/// edges.
-constexpr std::uint32_t kMaxSights = 32;
+/// The number of samples per pixel for which features are computed, also if colors have fewer
+/// samples. It suffices to antialias edges.
+constexpr std::uint32_t kFeatureSamples = 32;
 
 struct Row {
   std::string_view name;
@@ -28,19 +28,23 @@ struct Row {
 
 const Row& row_of(SampledAov aov) {
   // Rows are in the order of SampledAov.
-  static constexpr std::array kRows = {Row{"variance", "Y"}, Row{"samples", "N"},
-                                       Row{"denoise_albedo", "RGB"}, Row{"denoise_normal", "XYZ"}};
+  static constexpr std::array kRows = {Row{"variance", "Y"},         Row{"samples", "N"},
+                                       Row{"denoise_albedo", "RGB"}, Row{"denoise_normal", "XYZ"},
+                                       Row{"emission", "RGB"},       Row{"noisy", "RGB"}};
   static_assert(kRows.size() == kSampledAovs.size());
   return kRows[static_cast<std::size_t>(aov)];
 }
 
-/// The value of a quantity that depends only on a pixel's sums.
-float value_of(SampledAov aov, const PixelSum& sum, const Vec3& background) {
+/// The value of a quantity that depends only on a pixel's sums. `background` is black if the film
+/// has alpha.
+float value_of(SampledAov aov, std::size_t channel, const PixelSum& sum, const Vec3& background) {
   if (aov == SampledAov::variance) return static_cast<float>(sum.variance(background));
-  return static_cast<float>(sum.count);
+  if (aov == SampledAov::samples) return static_cast<float>(sum.count);
+  const Vec3 color = sum.mean_color() + (1 - sum.mean_alpha()) * background;
+  return color[static_cast<glm::length_t>(channel)];
 }
 
-constexpr std::array kAovsOfSums = {SampledAov::variance, SampledAov::samples};
+constexpr std::array kAovsOfSums = {SampledAov::variance, SampledAov::samples, SampledAov::noisy};
 
 std::optional<SampledAov> aov_of_sums(std::string_view channel) {
   const auto aov = sampled_aov_named(channel.substr(0, channel.find('.')));
@@ -58,10 +62,11 @@ void compute_channels(const SampleSums& sums, std::span<Channel> channels) {
   for (Channel& channel : channels) {
     const std::optional<SampledAov> aov = aov_of_sums(channel.name);
     if (!aov) continue;
+    const std::size_t index = row_of(*aov).channels.find(channel.name.back());
     std::vector<float> values;
     values.reserve(sums.pixels.size());
     for (const PixelSum& pixel : sums.pixels)
-      values.push_back(value_of(*aov, pixel, sums.background));
+      values.push_back(value_of(*aov, index, pixel, sums.background));
     channel.values = std::move(values);
   }
 }
@@ -78,11 +83,13 @@ std::optional<SampledAov> sampled_aov_named(std::string_view name) {
 }
 
 SampledAovPainter::SampledAovPainter(const World& world, const RenderOptions& options,
-                                     const PixelRect& window, Film& film)
+                                     const Vec3& background, const PixelRect& window, Film& film)
     : world_(world),
       options_(options),
       ray_(world.camera, world.scene),
       filter_(options.filter),
+      background_(background),
+      emission_(world, light_, options, background),
       window_(window),
       film_(film) {
   first_.fill(kNone);
@@ -101,20 +108,34 @@ float& SampledAovPainter::value(SampledAov aov, std::size_t channel, std::size_t
   return std::get<std::vector<float>>(film_.channels[first + channel].values)[pixel];
 }
 
-void SampledAovPainter::set(std::size_t pixel, const PixelSum& sum, const Vec3& background) const {
+void SampledAovPainter::set(std::size_t pixel, const PixelSum& sum) const {
   for (const SampledAov aov : kAovsOfSums) {
-    if (has(aov)) value(aov, 0, pixel) = value_of(aov, sum, background);
+    if (!has(aov)) continue;
+    for (std::size_t c = 0; c < row_of(aov).channels.size(); ++c)
+      value(aov, c, pixel) = value_of(aov, c, sum, background_);
   }
 }
 
-void SampledAovPainter::paint(const PixelRect& tile) const {
-  if (!has(SampledAov::denoise_albedo) && !has(SampledAov::denoise_normal)) return;
+std::size_t SampledAovPainter::index_of(const PixelRect& tile, std::size_t i) const {
+  const std::size_t width = tile.size().width;
+  const std::size_t x = tile.x0 - window_.x0 + i % width, y = tile.y0 - window_.y0 + i / width;
+  return y * film_.size().width + x;
+}
+
+void SampledAovPainter::paint(const PixelRect& tile, std::span<const SampleRange> samples,
+                              std::uint32_t count) const {
+  if (has(SampledAov::denoise_albedo) || has(SampledAov::denoise_normal)) paint_features(tile);
+  if (has(SampledAov::emission)) paint_emission(tile, samples, count);
+}
+
+void SampledAovPainter::paint_features(const PixelRect& tile) const {
   std::array<Ray, kTilePixels> rays;
+  std::array<DenoiseFeatures, kTilePixels> features;
   std::array<DVec3, kTilePixels> albedos{}, normals{};
   const ImageSize size = tile.size();
   const std::size_t pixels = std::size_t{size.width} * size.height;
-  const std::uint32_t count = std::min(options_.samples, kMaxSights);
-  for (std::uint32_t k = 0; k < count; ++k) {
+  FeatureTracer tracer(world_);
+  for (std::uint32_t k = 0; k < kFeatureSamples; ++k) {
     for (std::size_t i = 0; i < pixels; ++i) {
       const auto x = tile.x0 + static_cast<std::uint32_t>(i % size.width);
       const auto y = tile.y0 + static_cast<std::uint32_t>(i / size.width);
@@ -123,28 +144,39 @@ void SampledAovPainter::paint(const PixelRect& tile) const {
       const PixelOffset offset = filter_(uv.x, uv.y);
       rays[i] = ray_(x + offset.x, y + offset.y);
     }
-    const Sights sights(world_, std::span(rays).first(pixels), {Aov::albedo, Aov::normal});
-    Sights::Values<float> albedo, normal;
-    sights.values_of(Aov::albedo, albedo);
-    sights.values_of(Aov::normal, normal);
+    tracer.trace(std::span(rays).first(pixels), std::span(features).first(pixels));
     for (std::size_t i = 0; i < pixels; ++i) {
-      albedos[i] += DVec3(albedo[0][i], albedo[1][i], albedo[2][i]);
-      normals[i] += DVec3(normal[0][i], normal[1][i], normal[2][i]);
+      albedos[i] += DVec3(features[i].albedo);
+      normals[i] += DVec3(features[i].normal);
     }
   }
   for (std::size_t i = 0; i < pixels; ++i) {
-    const std::size_t x = tile.x0 - window_.x0 + i % size.width;
-    const std::size_t y = tile.y0 - window_.y0 + i / size.width;
-    const std::size_t pixel = y * film_.size().width + x;
     const auto store = [&](SampledAov aov, const DVec3& sum) {
       if (!has(aov)) return;
       for (std::size_t c = 0; c < 3; ++c) {
-        value(aov, c, pixel) =
-            static_cast<float>(sum[static_cast<glm::length_t>(c)] / static_cast<double>(count));
+        value(aov, c, index_of(tile, i)) =
+            static_cast<float>(sum[static_cast<glm::length_t>(c)] / kFeatureSamples);
       }
     };
-    store(SampledAov::denoise_albedo, glm::min(albedos[i], DVec3(count)));
+    store(SampledAov::denoise_albedo, albedos[i]);
     store(SampledAov::denoise_normal, normals[i]);
+  }
+}
+
+void SampledAovPainter::paint_emission(const PixelRect& tile, std::span<const SampleRange> samples,
+                                       std::uint32_t count) const {
+  std::array<PixelSum, kTilePixels> sums{};
+  for (SampleRange range : samples) {
+    range.last = std::min(range.last, range.first + count);
+    count -= range.size();
+    if (range.size() > 0) emission_.add(tile, range, sums);
+  }
+  const ImageSize size = tile.size();
+  for (std::size_t i = 0; i < std::size_t{size.width} * size.height; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      value(SampledAov::emission, c, index_of(tile, i)) =
+          value_of(SampledAov::noisy, c, sums[i], background_);
+    }
   }
 }
 

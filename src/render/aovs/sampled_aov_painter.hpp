@@ -3,9 +3,11 @@
 
 #include "render/camera_rays.hpp"
 #include "render/samples/pixel_filter.hpp"
+#include "render/samples/random_painter.hpp"
 
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
+#include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/sample_sums.hpp>
 #include <microtrace/sampled_aov.hpp>
@@ -14,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace microtrace {
 
@@ -21,18 +24,25 @@ namespace microtrace {
 class SampledAovPainter {
  public:
   /// Adds the channels requested by the options to the film. The film must have the pixels of
-  /// `window`. All arguments must outlive this object.
-  SampledAovPainter(const World& world, const RenderOptions& options, const PixelRect& window,
-                    Film& film);
+  /// `window`. `background` is black if the film has alpha. All other arguments must outlive this
+  /// object.
+  SampledAovPainter(const World& world, const RenderOptions& options, const Vec3& background,
+                    const PixelRect& window, Film& film);
 
   /// Sets a pixel's values from its samples. `pixel` is an index in the film.
-  void set(std::size_t pixel, const PixelSum& sum, const Vec3& background) const;
+  void set(std::size_t pixel, const PixelSum& sum) const;
 
-  /// Computes the denoising features of a tile of the window. The tile has at most kTileEdge pixels
-  /// per side.
-  void paint(const PixelRect& tile) const;
+  /// Computes the denoising features and the emission of a tile of the window. The tile has at most
+  /// kTileEdge pixels per side. The emission is the mean over the first `count` of these samples.
+  void paint(const PixelRect& tile, std::span<const SampleRange> samples,
+             std::uint32_t count) const;
 
  private:
+  void paint_features(const PixelRect& tile) const;
+  void paint_emission(const PixelRect& tile, std::span<const SampleRange> samples,
+                      std::uint32_t count) const;
+  /// The index in the film of pixel i of the tile.
+  [[nodiscard]] std::size_t index_of(const PixelRect& tile, std::size_t i) const;
   /// A value of a channel of the film.
   [[nodiscard]] float& value(SampledAov aov, std::size_t channel, std::size_t pixel) const;
   [[nodiscard]] bool has(SampledAov aov) const {
@@ -44,6 +54,9 @@ class SampledAovPainter {
   const RenderOptions& options_;
   CameraRays ray_;
   FilterSampler filter_;
+  Vec3 background_;
+  PathIntegrator light_{{.max_depth = 1}};  ///< takes the same samples as the colors' integrator
+  RandomPainter emission_;
   const PixelRect& window_;
   Film& film_;
   std::array<std::size_t, kSampledAovs.size()> first_{};  ///< index in the film, or kNone

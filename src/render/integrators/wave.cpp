@@ -2,7 +2,8 @@
 
 #include "render/bsdf/frame.hpp"
 #include "render/kernels/dispatch.hpp"
-#include "scene/math/exponential.hpp"
+#include "render/shading/beer_lambert.hpp"
+#include "render/shading/footprint.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -12,16 +13,6 @@
 
 namespace microtrace {
 namespace {
-
-/// The transmittance of a medium over a distance.
-Vec3 transmittance(const Vec3& absorption, float distance) {
-  Vec3 left(1);
-  for (int c = 0; c < 3; ++c) {
-    const double powers = double{absorption[c]} * distance;
-    if (powers > 0) left[c] = static_cast<float>(power_of_two(-std::min(powers, 200.0)));
-  }
-  return left;
-}
 
 /// Adds the number of rays, and the time between construction and destruction, to the counts.
 class RayTimer {
@@ -102,12 +93,9 @@ void Wave::escape(const Ray& ray, const PathState& path) {
 }
 
 void Wave::widen(const Ray& ray, PathState& path) const {
-  const RayDifferential step = world_->camera.differential(ray);
-  const DVec3 d(ray.d);
-  const double spread = std::sqrt(glm::dot(step.d_dy, step.d_dy) / glm::dot(d, d));
-  const double begin = std::sqrt(glm::dot(step.o_dy, step.o_dy));
-  path.begin = static_cast<float>(begin) * step_.sample_width;
-  path.spread = static_cast<float>(spread) * step_.sample_width;
+  const Footprint footprint = camera_footprint(world_->camera, ray, step_.sample_width);
+  path.begin = footprint.begin;
+  path.spread = footprint.spread;
 }
 
 void Wave::prepare(std::size_t i, ShadingPoint& point) {
@@ -162,7 +150,7 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
     if (behind.hit) hit = behind.hit, point = behind.point;
   }
   if (path.absorption != Vec3(0))
-    path.throughput *= transmittance(path.absorption, point.at.distance);
+    path.throughput *= beer_lambert(path.absorption, point.at.distance);
   if (from_camera) alphas_[path.slot] = 1;
   if (const Vec3 emission = shading_->emission(point); emission != Vec3(0)) {
     const Vec3 d = unit<1>(ray.d);

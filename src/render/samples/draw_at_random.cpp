@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <new>
 #include <span>
+#include <vector>
 
 namespace microtrace {
 namespace {
@@ -49,12 +50,11 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
   const RandomPainter painter(drawing.world, drawing.integrator, options, background);
   const SampleRange all{.first = 0, .last = options.samples};
   std::uint32_t samples_per_pixel = options.samples;
-  const SampledAovPainter channels(drawing.world, options, window, film);
+  const SampledAovPainter channels(drawing.world, options, background, window, film);
   const auto set = [&](std::uint32_t x, std::uint32_t y, const PixelSum& pixel) {
     set_pixel(film, x - window.x0, y - window.y0, pixel.mean_color(), pixel.mean_alpha(),
               background);
-    channels.set(std::size_t{y - window.y0} * film.size().width + (x - window.x0), pixel,
-                 background);
+    channels.set(std::size_t{y - window.y0} * film.size().width + (x - window.x0), pixel);
   };
   if (options.passes) {
     SampleSums own;
@@ -63,11 +63,14 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
     run_passes(painter, options.passes->part.value_or(all), *options.passes, drawing.start,
                drawing.threads, options.progress, sums);
     samples_per_pixel = sums.count();
+    // The channels of a part are those of the whole picture.
+    const bool is_part = options.passes->part.has_value();
+    const std::vector<SampleRange> taken = is_part ? std::vector{all} : sums.ranges();
     const auto finish = [&](const PixelRect& tile, const auto& /*poll*/) {
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, sums.at(x, y));
       }
-      channels.paint(tile);
+      channels.paint(tile, taken, is_part ? all.last : sums.at(tile.x0, tile.y0).count);
       beside(tile);
     };
     for_each_tile(window, drawing.threads, finish, nullptr);
@@ -82,7 +85,7 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, sums[pixel++]);
       }
-      channels.paint(tile);
+      channels.paint(tile, std::span(&all, 1), all.last);
       beside(tile);
     };
     for_each_tile(window, drawing.threads, draw, options.progress);

@@ -1,4 +1,5 @@
 #include <microtrace/error.hpp>
+#include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/sampled_aov.hpp>
 
@@ -55,9 +56,14 @@ TEST(SampledAov, VarianceAndNumberOfSamples) {
   EXPECT_EQ(value(by_passes, 0, 7, 3), value(film, 0, 7, 3));
 }
 
+/// The albedo of a dielectric: the share that its surface reflects is white.
+float albedo_of(float base) {
+  return base + 0.04F * (1 - base);
+}
+
 TEST(SampledAov, FeaturesAreFilteredLikeColors) {
   const Film film =
-      drawn({.samples = 64,
+      drawn({.samples = 4,
              .aovs = {Aov::depth},
              .sampled_aovs = {SampledAov::denoise_normal, SampledAov::denoise_albedo}});
   ASSERT_EQ(film.channels.size(), 7U);
@@ -65,13 +71,127 @@ TEST(SampledAov, FeaturesAreFilteredLikeColors) {
   EXPECT_EQ(film.channels[1].name, "denoise_normal.X");
   EXPECT_EQ(film.channels[6].name, "denoise_albedo.B");
   EXPECT_EQ(value(film, 3, 12, 5), 1);
-  EXPECT_EQ(value(film, 4, 12, 5), 0.5F);
-  EXPECT_EQ(value(film, 6, 12, 5), 0.25F);
+  EXPECT_FLOAT_EQ(value(film, 4, 12, 5), albedo_of(0.5F));
+  EXPECT_FLOAT_EQ(value(film, 6, 12, 5), albedo_of(0.25F));
   const float share = value(film, 3, 13, 5);
   EXPECT_NEAR(share, 0.3, 1.0 / 16);
-  EXPECT_EQ(value(film, 4, 13, 5), 0.5F * share);
-  EXPECT_EQ(value(film, 5, 13, 5), share);
+  EXPECT_FLOAT_EQ(value(film, 4, 13, 5), albedo_of(0.5F) * share);
+  EXPECT_FLOAT_EQ(value(film, 5, 13, 5), share);
   for (std::size_t channel = 1; channel < 7; ++channel) EXPECT_EQ(value(film, channel, 14, 5), 0);
+}
+
+TEST(SampledAov, NoisyIsTheColor) {
+  const std::vector<SampledAov> wanted = {SampledAov::noisy};
+  const Film film = drawn({.samples = 10, .sampled_aovs = wanted});
+  const Film by_passes = drawn({.samples = 10, .passes = Passes{}, .sampled_aovs = wanted});
+  for (std::uint32_t x = 0; x < kSize.width; ++x) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(value(film, c, x, 7), film.row(7)[x][static_cast<glm::length_t>(c)]);
+      EXPECT_EQ(value(by_passes, c, x, 7), value(film, c, x, 7));
+    }
+  }
+}
+
+/// Renders the emission and the features of what a camera at the origin sees.
+Film seen_features(Scene scene, RenderOptions options) {
+  static const PathIntegrator path;
+  if (options.integrator == nullptr) options.integrator = &path;
+  options.sampled_aovs = {SampledAov::denoise_albedo, SampledAov::denoise_normal,
+                          SampledAov::emission};
+  scene.epsilon = 0;
+  return render(scene, PerspectiveCamera{.vertical_fov = 0.1}, {.width = 2, .height = 2}, options);
+}
+
+Vec3 vector_at(const Film& film, std::size_t first) {
+  Vec3 result;
+  for (glm::length_t c = 0; c < 3; ++c)
+    result[c] = std::get<std::vector<float>>(
+        film.channels.at(first + static_cast<std::size_t>(c)).values)[0];
+  return result;
+}
+
+void expect_near(const Vec3& actual, const Vec3& expected) {
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c], expected[c], 2e-3) << c;
+}
+
+/// A colored wall behind the camera at z = 5, and one in front of it at z = -5.
+Scene two_walls() {
+  Scene scene;
+  scene.materials = {{.base_color = Vec4(0.5F, 0.25F, 0.125F, 1), .roughness = 1},
+                     {.base_color = Vec4(0.2F, 0.6F, 0.9F, 1), .roughness = 1}};
+  scene.objects = {{.name = "behind", .shape = Plane{{0, 0, 5}, {0, 0, -1}}, .material = 0},
+                   {.name = "front", .shape = Plane{{0, 0, -5}, {0, 0, 1}}, .material = 1}};
+  return scene;
+}
+
+constexpr Vec3 kBehind{0.52F, 0.28F, 0.16F}, kFront{0.232F, 0.616F, 0.904F};
+
+TEST(Features, MirrorsShowOtherSurfaces) {
+  Scene scene = two_walls();
+  scene.materials.push_back({.base_color = Vec4(0.5F, 1, 1, 1), .metallic = 1, .roughness = 0.1F});
+  scene.objects.push_back(
+      {.name = "mirror", .shape = Disc{{0, 0, -2}, {0, 0, 1}, 1}, .material = 2});
+  const Film film = seen_features(scene, {});
+  expect_near(vector_at(film, 0), Vec3(0.5F, 1, 1) * kBehind);
+  expect_near(vector_at(film, 3), {0, 0, -1});
+  scene.materials[2].roughness = 0.5F;
+  const Film rough = seen_features(scene, {});
+  expect_near(vector_at(rough, 0), {0.5F, 1, 1});
+  expect_near(vector_at(rough, 3), {0, 0, 1});
+}
+
+TEST(Features, GlassShowsWhatIsBehindAndReflected) {
+  Scene scene = two_walls();
+  scene.materials.push_back({.base_color = Vec4(0.8F, 1, 1, 1), .metallic = 0, .roughness = 0});
+  scene.materials[2].transmission = Transmission{.factor = 1};
+  scene.materials[2].double_sided = true;
+  scene.objects.push_back({.name = "pane", .shape = Disc{{0, 0, -2}, {0, 0, 1}, 1}, .material = 2});
+  // The reflection of 4 % is too faint to be followed.
+  expect_near(vector_at(seen_features(scene, {}), 0), Vec3(0.8F, 1, 1) * kFront);
+  // Reflects ((2.5 - 1) / (2.5 + 1))^2 = 0.1837 of the light. Shares below 0.05 are subtracted.
+  scene.materials[2].ior = 2.5F;
+  const float share = (0.1837F - 0.05F) / 0.95F;
+  const Film film = seen_features(scene, {});
+  expect_near(vector_at(film, 0), share * kBehind + (1 - share) * Vec3(0.8F, 1, 1) * kFront);
+  expect_near(vector_at(film, 3), {0, 0, 1 - 2 * share});
+}
+
+TEST(Features, RefractionBendsRays) {
+  // From the left half of a glass ball, the camera sees the right wall.
+  Scene scene;
+  scene.materials = {{.base_color = Vec4(1, 0, 0, 1), .roughness = 1},
+                     {.base_color = Vec4(0, 1, 0, 1), .roughness = 1},
+                     {.metallic = 0, .roughness = 0}};
+  scene.materials[2].transmission = Transmission{.factor = 1};
+  scene.materials[2].volume = Volume{.thickness = 1};
+  scene.objects = {{.name = "left", .shape = Plane{{-3, 0, 0}, {1, 0, 0}}, .material = 0},
+                   {.name = "right", .shape = Plane{{3, 0, 0}, {-1, 0, 0}}, .material = 1},
+                   {.name = "ball", .shape = Sphere{{0.5F, 0, -3}, 1}, .material = 2}};
+  const Vec3 albedo = vector_at(seen_features(scene, {}), 0);
+  EXPECT_GT(albedo.y, 0.9F);
+  EXPECT_LT(albedo.x, 0.1F);
+}
+
+TEST(Features, LampsAreEmissionWhereTheyAreSeenDirectly) {
+  Scene scene = two_walls();
+  scene.background = Vec3(0.7F);
+  scene.materials[1].emissive = Vec3(6, 3, 0);
+  const Film lamp = seen_features(scene, {.samples = 3});
+  EXPECT_EQ(vector_at(lamp, 6), Vec3(6, 3, 0));
+  expect_near(vector_at(lamp, 0), kFront);
+  scene.materials.push_back({.metallic = 1, .roughness = 0});
+  scene.materials[0].emissive = Vec3(6, 3, 0);
+  scene.objects.push_back(
+      {.name = "mirror", .shape = Disc{{0, 0, -2}, {0, 0, 1}, 1}, .material = 2});
+  const Film mirrored = seen_features(scene, {.samples = 3});
+  EXPECT_EQ(vector_at(mirrored, 6), Vec3(0));
+  const Vec3 sum = kBehind + Vec3(6, 3, 0);
+  expect_near(vector_at(mirrored, 0), sum / sum.x);
+  scene.objects.clear();
+  const Film empty = seen_features(scene, {.samples = 3});
+  EXPECT_EQ(vector_at(empty, 0), Vec3(0));
+  EXPECT_EQ(vector_at(empty, 3), Vec3(0));
+  EXPECT_EQ(vector_at(empty, 6), Vec3(0.7F));
 }
 
 TEST(SampledAov, NamesAreThoseOfTheCommandLine) {

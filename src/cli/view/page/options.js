@@ -57,6 +57,7 @@ export function showOptions(options) {
   for (const control of controls()) {
     const value = options.get(control.dataset.option);
     if (control.type === "range") control.value = value ?? 0;
+    else if (control.type === "checkbox") control.checked = value === null;
     else control.value = value ?? "";
     showNumber(control);
   }
@@ -67,8 +68,9 @@ export function onChange(change) {
   for (const control of controls()) {
     const report = (isFinal) => {
       showNumber(control);
-      const isDefault = control.type === "range" && Number(control.value) === 0;
-      change(control.dataset.option, isDefault ? "" : control.value.trim(), isFinal);
+      const isRange = control.type === "range", isBox = control.type === "checkbox";
+      const isDefault = (isRange && Number(control.value) === 0) || (isBox && !control.checked);
+      change(control.dataset.option, isDefault ? "" : isBox ? null : control.value.trim(), isFinal);
     };
     control.addEventListener("change", () => report(true));
     if (control.type === "range") control.addEventListener("input", () => report(false));

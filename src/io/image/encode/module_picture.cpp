@@ -14,7 +14,7 @@ constexpr std::array kColorNames = {"R", "G", "B", "A"};
 }  // namespace
 
 ModulePicture::ModulePicture(const Film& film, const MicrotraceFormat& format)
-    : notes_(notes_of(film.display, format.is_float != 0)) {
+    : notes_(notes_of(film, format.is_float != 0)) {
   if (format.is_float != 0) {
     add_float_colors(film);
   } else {

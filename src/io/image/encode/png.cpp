@@ -72,7 +72,7 @@ PngEncoder::PngEncoder(std::string file, Speed speed) : file_(std::move(file)), 
 void PngEncoder::encode(const Film& film, const std::function<void(std::string_view)>& out) const {
   const std::uint32_t channels = film.has_alpha() ? 4 : 3;
   std::vector<std::uint8_t> row(std::size_t{channels} * film.size().width);
-  const std::vector<Note> notes = notes_of(film.display, false);
+  const std::vector<Note> notes = notes_of(film, false);
   std::vector<MicrotracePngText> texts;
   for (const Note& note : notes) {
     texts.push_back({.keyword = note.name.c_str(), .text = note.text.c_str()});
