@@ -5,9 +5,8 @@
 /// src/scene/camera.cpp, its rules in src/scene/validate/validate.cpp, its reader in
 /// src/io/scene_json/camera.cpp, its name in src/io/sidecar/describe_picture.cpp, its members in
 /// docs/scene.schema.json and docs/scene-format.md, and golden rays in
-/// tests/unit/scene/camera_test.cpp. A lens also needs random numbers: add a parameter to
-/// RayGenerator, and a pair of dimensions to src/render/sampling/dimensions.hpp that
-/// src/render/samples/random_painter.cpp draws.
+/// tests/unit/scene/camera_test.cpp. A camera with a lens also needs its case in
+/// RayGenerator::through_lens.
 
 #include <microtrace/export.hpp>
 #include <microtrace/math.hpp>
@@ -53,7 +52,12 @@ struct DepthRange {
 struct PerspectiveCamera {
   Pose pose{};
   double vertical_fov = 1;  ///< vertical field of view, radians, in (0, pi)
-  double focus = 1;         ///< distance of the image plane; has no effect on the rays
+  /// Depth of the image plane. It has no effect on the rays of a pinhole. With a lens, points at
+  /// this depth are sharp.
+  double focus = 1;
+  /// Radius of a thin lens in world units, not negative; 0 is a pinhole. Only samples of Monte
+  /// Carlo integrators pass through the lens; all other rays pass through its center.
+  double lens_radius = 0;
   /// If set, a window with this ratio of width to height is fitted into the picture, as glTF
   /// cameras require. If not set, the vertical field of view spans the picture's height for any
   /// width.
@@ -162,6 +166,13 @@ class MICROTRACE_EXPORT RayGenerator {
   /// nothing.
   [[nodiscard]] Ray operator()(double x, double y) const;
 
+  /// True if the camera has a lens with a radius above 0.
+  [[nodiscard]] bool has_lens() const { return has_lens_; }
+  /// Returns the ray through the point `on_lens` of the unit disk, scaled to the lens, which meets
+  /// the ray of operator() at the depth of focus (docs/derivations.md). The camera must have a
+  /// lens.
+  [[nodiscard]] Ray through_lens(double x, double y, const DVec2& on_lens) const;
+
   /// Computes the rays through the centers of consecutive pixels of a row, starting at pixel (x,
   /// y). Faster than single calls.
   void centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const;
@@ -205,6 +216,9 @@ class MICROTRACE_EXPORT RayGenerator {
   DVec2 center_, pixels_per_unit_;  // as in CameraModel
   std::optional<Distortion> distortion_;
   std::shared_ptr<const Lens> lens_;  // for Kind::distorted
+  bool has_lens_ = false;
+  double focus_ = 1;
+  DVec3 lens_right_{0}, lens_down_{0};  // from the center of the lens to its edge
   DepthRange depth_;
   ImageSize size_;
 };

@@ -224,7 +224,9 @@ struct Class<PerspectiveCamera> {
   static constexpr const char* kName = "PerspectiveCamera";
   static constexpr auto kFields =
       std::tuple(Field{"vertical_fov", &PerspectiveCamera::vertical_fov},
-                 Field{"aspect_ratio", &PerspectiveCamera::aspect_ratio});
+                 Field{"aspect_ratio", &PerspectiveCamera::aspect_ratio},
+                 Field{"focus", &PerspectiveCamera::focus},
+                 Field{"lens_radius", &PerspectiveCamera::lens_radius});
 };
 
 template <>

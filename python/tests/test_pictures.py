@@ -176,6 +176,16 @@ def test_small_numbers_of_numpy():
     assert picture.color.shape == (12, 16, 3)
 
 
+def test_lens():
+    prepared = mt.load(KNOT).prepare()
+    camera = mt.PerspectiveCamera(position=(0, 0, 9), focus=9, lens_radius=0.5)
+    pinhole = mt.PerspectiveCamera(position=(0, 0, 9), focus=3)
+    pictures = [mt.render(prepared, c, SIZE, spp=4).color for c in (camera, pinhole)]
+    assert not np.array_equal(*pictures)
+    with pytest.raises(ValueError, match="lens_radius"):
+        mt.render(prepared, mt.PerspectiveCamera(lens_radius=-1), SIZE, spp=1)
+
+
 def test_progress_and_cancel():
     prepared = mt.load(KNOT).prepare()
     shares: list[float] = []

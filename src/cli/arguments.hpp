@@ -28,9 +28,10 @@ struct CameraOptions {
   std::string camera;  ///< name or index of a scene's camera; empty: the first
   std::optional<OrbitView> orbit{};
   std::optional<DVec3> eye{};
-  std::optional<DVec3> target{};         ///< absent: the center of the scene's bounding box
-  DVec3 up{0, 1, 0};                     ///< up vector for `eye`
-  std::optional<double> vertical_fov{};  ///< degrees; for `orbit` and `eye`
+  std::optional<DVec3> target{};                 ///< absent: the center of the scene's bounding box
+  DVec3 up{0, 1, 0};                             ///< up vector for `eye`
+  std::optional<double> vertical_fov{};          ///< degrees; for `orbit` and `eye`
+  std::optional<double> lens_radius{}, focus{};  ///< replace those of the camera
 
   [[nodiscard]] bool is_of_scene() const { return !orbit && !eye; }
   /// Returns the view of --view, or the default view, with the angle of --fov.

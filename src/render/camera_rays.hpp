@@ -1,6 +1,8 @@
 #pragma once
 /// The camera rays of pictures.
 
+#include "render/sampling/warps.hpp"
+
 #include <microtrace/camera.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/ray.hpp>
@@ -23,11 +25,13 @@ class CameraRays {
         t_min_(std::nextafter(scene.epsilon, std::numeric_limits<float>::infinity())) {}
 
   /// The ray through the pixel coordinates (x, y), as in RayGenerator.
-  [[nodiscard]] Ray operator()(double x, double y) const {
-    Ray ray = camera_(x, y);
-    ray.t_min = std::max(ray.t_min, t_min_);
-    return ray;
+  [[nodiscard]] Ray operator()(double x, double y) const { return limited(camera_(x, y)); }
+  /// The ray of a sample. Two random numbers select a point on the camera's lens, if it has one.
+  [[nodiscard]] Ray sample(double x, double y, const Vec2& u) const {
+    if (!has_lens()) return (*this)(x, y);
+    return limited(camera_.through_lens(x, y, DVec2(sampling::unit_disk(u))));
   }
+  [[nodiscard]] bool has_lens() const { return camera_.has_lens(); }
 
   /// Sets `rays` to the rays through the centers of the tile's pixels, row by row.
   void centers(const PixelRect& tile, std::span<Ray> rays) const {
@@ -35,6 +39,11 @@ class CameraRays {
   }
 
  private:
+  [[nodiscard]] Ray limited(Ray ray) const {
+    ray.t_min = std::max(ray.t_min, t_min_);
+    return ray;
+  }
+
   const RayGenerator& camera_;
   float t_min_;
 };

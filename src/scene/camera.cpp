@@ -79,6 +79,10 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
     if constexpr (std::is_same_v<AnyCamera, PerspectiveCamera>) {
       const double half = tan_radians(c.vertical_fov / 2);
       set_plane(Kind::perspective, fitted(half, c.aspect_ratio, size), forward_);
+      has_lens_ = c.lens_radius > 0;
+      focus_ = c.focus;
+      lens_right_ = glm::normalize(right_) * c.lens_radius;
+      lens_down_ = glm::normalize(down_) * c.lens_radius;
       depth_ = c.depth;
     } else if constexpr (std::is_same_v<AnyCamera, OrthographicCamera>) {
       set_plane(Kind::orthographic, fitted(c.height / 2, c.aspect_ratio, size), position_);
@@ -156,6 +160,14 @@ Ray RayGenerator::ray_at(double x, double y) const {
 Ray RayGenerator::operator()(double x, double y) const {
   const FloatEnvironment environment;
   return ray_at(x, y);
+}
+
+Ray RayGenerator::through_lens(double x, double y, const DVec2& on_lens) const {
+  const FloatEnvironment environment;
+  const DVec3 to_lens = lens_right_ * on_lens.x + lens_down_ * on_lens.y;
+  const DVec3 toward = toward_pixel<1>(corner_, right_, down_, x, y) - to_lens / focus_;
+  const LaneRays<1> lane = rays_toward<1>(toward, depth_.near, depth_.far);
+  return {.o = Vec3(position_ + to_lens), .t_min = lane.t_min, .d = lane.d, .t_max = lane.t_max};
 }
 
 void RayGenerator::centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const {

@@ -195,6 +195,30 @@ class CommandLine(ProgramTest):
             self.assertEqual(wrong.returncode, 2, (options, wrong.stderr))
             self.assertFalse((self.folder / "a.ppm").exists())
 
+    def test_lens(self):
+        scene, light = SOURCE / "scenes/light.json", ["--integrator", "path", "--size", "24x18", "--spp", "2"]
+        pinhole = self.picture(scene, *light)
+        self.assertEqual(self.picture(scene, *light, "--aperture", "0", "--focus", "9"), pinhole)
+        blurred = self.picture(scene, *light, "--aperture", "0.3", "--focus", "9", "--sidecar", "s.json")
+        self.assertNotEqual(blurred, pinhole)
+        camera = json.loads((self.folder / "s.json").read_text())["camera"]
+        self.assertEqual((camera["lens_radius"], camera["focus"]), (0.3, 9))
+        document = json.loads(scene.read_text())
+        document["cameras"][0] |= {"lens_radius": 0.3, "focus": 9}
+        for item in document["objects"]:
+            if "file" in item:
+                item["file"] = str(SOURCE / "scenes" / item["file"])
+        (self.folder / "lens.json").write_text(json.dumps(document))
+        self.assertEqual(self.picture(self.folder / "lens.json", *light), blurred)
+        self.assertNotEqual(self.picture(self.folder / "lens.json", *light, "--focus", "3"), blurred)
+        for threads in ("1", "3"):
+            self.assertEqual(self.picture(scene, *light, "--aperture", "0.3", "--focus", "9", "-t", threads), blurred)
+        flat = ["--integrator", "flat", "--size", "24x18"]
+        self.assertEqual(self.picture(self.folder / "lens.json", *flat), self.picture(scene, *flat))
+        wrong = self.run_program(scene, *light, "--camera", "flat", "--focus", "3", "-o", "a.ppm")
+        self.assertEqual((wrong.returncode, wrong.stderr),
+                         (2, b"error: --focus: only perspective cameras have a lens; choose another camera\n"))
+
     def test_backgrounds(self):
         cube = SOURCE / "scenes/gltf/cube.glb"
         corner = lambda *options: self.picture(cube, "--integrator", "flat", "--size", "40x30", *options)[2][0][:3]

@@ -17,7 +17,7 @@ SOURCE = Path(sys.argv[2]).resolve()
 SCENE = SOURCE / "scenes/perspective1.json"
 LIGHT = [SCENE, "--integrator", "path", "--size", "16x12", "-q"]
 # Other options that an option requires.
-CONTEXT = {"--fov": ["--view", "front"], "--up": ["--eye", "0,0,30"], "--fps": ["--frames", "3:3"]}
+CONTEXT = {"--fov": ["--view", "front"], "--up": ["--eye", "0,0,30"], "--aperture": ["--focus", "3"], "--fps": ["--frames", "3:3"]}
 # Options that affect samples, with values that differ from the defaults.
 SAMPLES_DEPEND = {
     "--size": "12x16", "--crop": "0,0,8,8", "--background": "transparent", "--camera": "0", "--view": "top", "--eye": "0,0,30",
@@ -86,6 +86,8 @@ class Options(ProgramTest):
         for arguments, message in ((["--spp", "3", "--spp", "4"], b"error: --spp is given twice\n"),
                                    (["--frames", "0:1", "--time", "2"], b"error: --time can't be combined with --frames\n"),
                                    (["--fov", "30"], b"error: --fov requires --view or --eye\n"),
+                                   (["--aperture", "0.1"], b"error: --aperture requires --focus\n"),
+                                   (["--focus", "0"], b"error: --focus: expects a number above 0, at most 1e38, not 0\n"),
                                    (["--stats=xml"], b"error: --stats: expects text or json, not xml\n"),
                                    (["--filter", "gauss"], b"error: --filter: expects box or blackman-harris, not gauss\n")):
             result = self.run_program(*LIGHT, *arguments)

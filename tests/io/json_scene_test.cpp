@@ -45,7 +45,7 @@ TEST(JsonScene, ReadsCameras) {
   const Scene scene =
       parse(R"({"version": 1, "objects": [{"type": "plane", "point": [0,0,0], "normal": [0,1,0]}],
     "cameras": [
-      {"name": "p", "type": "perspective", "position": [1, 2, 3], "direction": [4, 5, 6], "up": [7, 8, 8], "vertical_fov": 90, "focus": 2.5},
+      {"name": "p", "type": "perspective", "position": [1, 2, 3], "direction": [4, 5, 6], "up": [7, 8, 8], "vertical_fov": 90, "focus": 2.5, "lens_radius": 0.25},
       {"name": "o", "type": "orthographic", "position": [0.1, 2, 3], "direction": [4, 5, 6], "height": 7},
       {"type": "environment", "position": [1, 2, 3], "direction": [4, 5, 6]}]})");
   ASSERT_EQ(scene.cameras.size(), 3U);
@@ -56,6 +56,7 @@ TEST(JsonScene, ReadsCameras) {
   EXPECT_EQ(perspective.pose.up, DVec3(7, 8, 8));
   EXPECT_EQ(perspective.vertical_fov, std::numbers::pi / 2);
   EXPECT_EQ(perspective.focus, 2.5);
+  EXPECT_EQ(perspective.lens_radius, 0.25);
   const auto& orthographic = std::get<OrthographicCamera>(scene.cameras[1].camera);
   EXPECT_EQ(orthographic.pose.position.x, 0.1);  // exact, because cameras are stored in float64
   EXPECT_EQ(orthographic.height, 7);

@@ -138,6 +138,14 @@ TEST(ValidateCamera, Perspective) {
   EXPECT_EQ(camera_field(camera), "focus");
   camera.focus = 0;
   EXPECT_EQ(camera_field(camera), "focus");
+  camera.focus = 1;
+  for (const double radius : {-1.0, 1e39, double{kNan}}) {
+    camera.lens_radius = radius;
+    EXPECT_EQ(camera_field(camera), "lens_radius") << radius;
+  }
+  camera.lens_radius = 1e30;
+  camera.focus = 1e-40;
+  EXPECT_EQ(camera_field(camera), "lens_radius");
 }
 
 TEST(ValidateCamera, OrthographicAndDepth) {

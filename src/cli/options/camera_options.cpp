@@ -12,6 +12,15 @@ double parse_fov(const OptionValue& value) {
   return degrees;
 }
 
+/// Greater lengths approach the limits of float32.
+constexpr double kGreatestLength = 1e38;
+
+double parse_focus(const OptionValue& value) {
+  const double focus = value.number();
+  if (!(focus > 0 && focus <= kGreatestLength)) value.refuse("a number above 0, at most 1e38");
+  return focus;
+}
+
 constexpr std::array kCameraOptions{
     Option{.names = "-c,--camera",
            .metavar = "NAME",
@@ -55,6 +64,24 @@ constexpr std::array kCameraOptions{
            .samples = Samples::change,
            .set = [](Arguments& a,
                      const OptionValue& value) { a.camera.vertical_fov = parse_fov(value); }},
+    Option{.names = "--aperture",
+           .metavar = "RADIUS",
+           .help = "radius of the camera's lens in scene units, for depth of field in path-traced "
+                   "pictures; 0 is a pinhole",
+           .samples = Samples::change,
+           .needs = "--focus",
+           .set =
+               [](Arguments& a, const OptionValue& value) {
+                 a.camera.lens_radius = value.number(0, kGreatestLength);
+               }},
+    Option{
+        .names = "--focus",
+        .metavar = "DEPTH",
+        .help = "depth along the viewing direction of the points that are sharp if the camera "
+                "has a lens",
+        .default_value = "the camera's",
+        .samples = Samples::change,
+        .set = [](Arguments& a, const OptionValue& value) { a.camera.focus = parse_focus(value); }},
 };
 static_assert(is_complete(kCameraOptions));
 

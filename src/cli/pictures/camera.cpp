@@ -4,6 +4,7 @@
 #include "scene/validate/validate.hpp"
 
 #include <cstddef>
+#include <variant>
 
 namespace microtrace::cli {
 
@@ -24,7 +25,23 @@ PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options
   return camera;
 }
 
-Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize size) {
+namespace {
+
+/// Sets the lens and the focus of the options.
+Camera with_lens(Camera camera, const CameraOptions& options) {
+  if (!options.lens_radius && !options.focus) return camera;
+  auto* perspective = std::get_if<PerspectiveCamera>(&camera);
+  if (perspective == nullptr)
+    refuse_usage("--focus: only perspective cameras have a lens; choose another camera");
+  if (!options.lens_radius && perspective->lens_radius == 0)
+    refuse_usage("--focus: this camera has no lens; add --aperture");
+  perspective->lens_radius = options.lens_radius.value_or(perspective->lens_radius);
+  perspective->focus = options.focus.value_or(perspective->focus);
+  if (const auto problem = validate(camera)) refuse_usage("--aperture: " + problem->message);
+  return camera;
+}
+
+Camera camera_without_options(const Scene& scene, const CameraOptions& options, ImageSize size) {
   if (!options.is_of_scene()) {
     Framing framing(options.view(), size);
     if (options.eye && options.target) {
@@ -53,6 +70,12 @@ Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize
   refuse_usage(message);
 }
 
+}  // namespace
+
+Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize size) {
+  return with_lens(camera_without_options(scene, options, size), options);
+}
+
 std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
                                            const Arguments& arguments) {
   if (sequence.count() == 1) return std::nullopt;  // choose_camera() frames a single picture
@@ -68,7 +91,7 @@ std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequ
   }
   PerspectiveCamera camera = camera_of(framing, options);
   camera.pose.position += framing.origin();
-  return camera;
+  return std::get<PerspectiveCamera>(with_lens(camera, options));
 }
 
 PerspectiveCamera in_coordinates_of(const Scene& scene, PerspectiveCamera camera) {

@@ -18,7 +18,8 @@ Pose read_pose(const JsonReader& json) {
 }
 
 PerspectiveCamera read_perspective(const JsonReader& json) {
-  json.require_object({"name", "type", "position", "direction", "up", "vertical_fov", "focus"});
+  json.require_object(
+      {"name", "type", "position", "direction", "up", "vertical_fov", "focus", "lens_radius"});
   PerspectiveCamera camera;
   camera.pose = read_pose(json);
   const JsonReader fov = json.member("vertical_fov");
@@ -28,6 +29,7 @@ PerspectiveCamera read_perspective(const JsonReader& json) {
   }
   camera.vertical_fov = radians_from_degrees(degrees);
   if (const auto focus = json.find("focus")) camera.focus = focus->number();
+  if (const auto radius = json.find("lens_radius")) camera.lens_radius = radius->number();
   return camera;
 }
 

@@ -97,6 +97,11 @@ std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origi
       text.append(std::visit([](const auto& d) { return members(d); }, *model.distortion));
       text.append("}");
     }
+    const auto* perspective = std::get_if<PerspectiveCamera>(&camera);
+    if (perspective != nullptr && perspective->lens_radius > 0) {
+      text.append(",\n    \"lens_radius\": ").append(number(perspective->lens_radius));
+      text.append(", \"focus\": ").append(number(perspective->focus));
+    }
     text.append(",\n    \"near\": ").append(number(model.depth.near));
     text.append(", \"far\": ").append(number(model.depth.far));
   }

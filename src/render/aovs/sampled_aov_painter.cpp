@@ -140,9 +140,10 @@ void SampledAovPainter::paint_features(const PixelRect& tile) const {
       const auto x = tile.x0 + static_cast<std::uint32_t>(i % size.width);
       const auto y = tile.y0 + static_cast<std::uint32_t>(i / size.width);
       const std::uint32_t key = sampling::pixel_key(world_.seed, x, y);
-      const Vec2 uv = sampling::Sobol(key, k).pair(sampling::kPixelPair);
+      const sampling::Sobol random(key, k);
+      const Vec2 uv = random.pair(sampling::kPixelPair);
       const PixelOffset offset = filter_(uv.x, uv.y);
-      rays[i] = ray_(x + offset.x, y + offset.y);
+      rays[i] = ray_.sample(x + offset.x, y + offset.y, random.pair(sampling::kLensPair));
     }
     tracer.trace(std::span(rays).first(pixels), std::span(features).first(pixels));
     for (std::size_t i = 0; i < pixels; ++i) {

@@ -45,18 +45,23 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
   // Loops over samples first, so that the rays of neighboring pixels form packets.
   static_assert(kTilePixels % kShadingLanes == 0);
   std::array<std::uint32_t, kShadingLanes> indices;
-  std::array<float, kShadingLanes> u, v;
+  std::array<float, kShadingLanes> u, v, lens_u{}, lens_v{};
   for (std::uint32_t k = range.first; k < range.last; ++k) {
     indices.fill(k);
     for (std::size_t first = 0; first < count; first += kShadingLanes) {
       kernels_.random_pairs(&keys[first], indices.data(), sampling::kPixelPair, u.data(), v.data());
+      if (ray_.has_lens()) {
+        kernels_.random_pairs(&keys[first], indices.data(), sampling::kLensPair, lens_u.data(),
+                              lens_v.data());
+      }
       const std::size_t size = std::min<std::size_t>(count - first, kShadingLanes);
       for (std::size_t i = 0; i < size; ++i) {
         if (batch.is_full()) trace();
         const Pixel pixel = pixels[first + i];
         const PixelOffset offset = filter_(u[i], v[i]);
         const SampleId id{.x = pixel.x, .y = pixel.y, .index = k, .key = keys[first + i]};
-        batch.add(first + i, id, [&] { return ray_(pixel.x + offset.x, pixel.y + offset.y); });
+        const double x = pixel.x + offset.x, y = pixel.y + offset.y;
+        batch.add(first + i, id, [&] { return ray_.sample(x, y, {lens_u[i], lens_v[i]}); });
       }
     }
   }

@@ -1,13 +1,13 @@
 #pragma once
 /// Numbers of the pairs of random numbers of a sample. Changing the number of a pair changes every
-/// path-traced picture. Pairs from 2^31 on are unused and available for other purposes, such as
-/// positions on a lens.
+/// path-traced picture. Pairs above 2^31 are unused and available for other purposes.
 
 #include <cstdint>
 
 namespace microtrace::sampling {
 
-inline constexpr std::uint32_t kPixelPair = 0;  ///< position within the pixel
+inline constexpr std::uint32_t kPixelPair = 0;         ///< position within the pixel
+inline constexpr std::uint32_t kLensPair = 1U << 31U;  ///< position on the camera's lens
 
 /// Each path vertex has this many pairs, starting at kFirstVertexPair.
 inline constexpr std::uint32_t kFirstVertexPair = 1, kVertexPairs = 5;

@@ -37,12 +37,19 @@ UnitPair<N> unit_pair(const Float<N>& u) {
   return {is_second_half ? -cosine : cosine, is_second_half ? -sine : sine};
 }
 
-/// A direction around +z with the pdf cos(theta) / pi.
+/// A point that is uniformly distributed over the unit disk.
 template <int N = 1>
-Floats3<N> cosine_hemisphere(const Floats2<N>& u) {
+Floats2<N> unit_disk(const Floats2<N>& u) {
   const auto [cosine, sine] = unit_pair<N>(u.x);
   const Float<N> r = square_root<N>(u.y);
-  return {r * cosine, r * sine, square_root<N>(1 - u.y)};
+  return {r * cosine, r * sine};
+}
+
+/// A direction around +z with the pdf cos(theta) / pi, above a point of the unit disk.
+template <int N = 1>
+Floats3<N> cosine_hemisphere(const Floats2<N>& u) {
+  const Floats2<N> p = unit_disk<N>(u);
+  return {p.x, p.y, square_root<N>(1 - u.y)};
 }
 
 /// The weights of a triangle's first two vertices for a point that is uniformly distributed over

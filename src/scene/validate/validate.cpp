@@ -150,13 +150,25 @@ Rule check(const std::optional<double>& aspect_ratio) {
   return aspect_ratio ? positive("aspect_ratio", *aspect_ratio) : Rule{};
 }
 
+Rule not_negative(const char* field, double x) {
+  if (x >= 0 && is_finite(x)) return {};
+  return broken(field, std::string("must be finite and not negative, is ").append(decimal(x)));
+}
+
 Rule check(const DepthRange& depth) {
-  if (!(depth.near >= 0 && is_finite(depth.near))) {
-    return broken("near",
-                  std::string("must be finite and not negative, is ").append(decimal(depth.near)));
-  }
+  if (Rule rule = not_negative("near", depth.near)) return rule;
   if (depth.far > depth.near) return {};
   return broken("far", std::string("must be greater than near, is ").append(decimal(depth.far)));
+}
+
+/// Checks the lens. The directions of its rays must be finite.
+Rule check_lens(const PerspectiveCamera& camera) {
+  constexpr double kGreatestRatio = 1e60;
+  if (Rule rule = not_negative("lens_radius", camera.lens_radius)) return rule;
+  if (camera.lens_radius <= kGreatestRatio * camera.focus) return {};
+  return broken(
+      "lens_radius",
+      std::string("must be at most 1e60 times focus, is ").append(decimal(camera.lens_radius)));
 }
 
 Rule check(const PerspectiveCamera& camera) {
@@ -166,7 +178,8 @@ Rule check(const PerspectiveCamera& camera) {
     return broken("vertical_fov",
                   std::string("must lie between 0 and 180 degrees, is ").append(decimal(degrees)));
   }
-  return first(positive("focus", camera.focus), check(camera.aspect_ratio), check(camera.depth));
+  return first(positive("focus", camera.focus), check_lens(camera), check(camera.aspect_ratio),
+               check(camera.depth));
 }
 
 Rule check(const OrthographicCamera& camera) {
