@@ -41,6 +41,7 @@
 #include <microtrace/scene_format.hpp>
 #include <microtrace/segments.hpp>
 #include <microtrace/shape.hpp>
+#include <microtrace/shutter.hpp>
 #include <microtrace/sidecar.hpp>
 #include <microtrace/spawn.hpp>
 #include <microtrace/stage_counts.hpp>

@@ -12,6 +12,7 @@
 #include <microtrace/sample_sums.hpp>
 #include <microtrace/sampled_aov.hpp>
 #include <microtrace/scene.hpp>
+#include <microtrace/shutter.hpp>
 #include <microtrace/stage_counts.hpp>
 
 #include <cstdint>
@@ -92,6 +93,11 @@ struct RenderOptions {
   /// If set, renders in passes, which takes 88 bytes of memory per pixel, and another 88 bytes if
   /// Passes::sums is set. Otherwise the picture is finished tile by tile.
   std::optional<Passes> passes{};
+  /// If set, the samples of a Monte Carlo integrator see the moments of this shutter. AOVs show the
+  /// scene and the camera that are given to render(). Samples are taken in passes over all pixels,
+  /// each of at least `shutter->times.count` samples per pixel unless fewer are wanted, which takes
+  /// the memory of `passes`. Can't be combined with the denoising features of SampledAov.
+  std::optional<Shutter> shutter{};
   RenderCounts* counts = nullptr;  ///< if not null, set at the end
   MemoryBudget* memory = nullptr;  ///< if not null, counts the memory of the call until it returns
   std::optional<Environment> environment{};  ///< replaces the scene's environment
@@ -114,8 +120,9 @@ struct RenderOptions {
 /// render one scene at the same time.
 ///
 /// Throws Error: usage for invalid samples, passes, crop or AOVs, for several samples per pixel if
-/// Integrator::is_data(), or for passes with an integrator that is not a Monte Carlo integrator;
-/// limit if memory runs out; canceled if options.progress returns false.
+/// Integrator::is_data(), for an invalid shutter, or for passes or a shutter with an integrator
+/// that is not a Monte Carlo integrator; limit if memory runs out; canceled if options.progress
+/// returns false.
 [[nodiscard]] MICROTRACE_EXPORT Film render(const PreparedScene& scene, const Camera& camera,
                                             ImageSize size, const RenderOptions& options = {});
 

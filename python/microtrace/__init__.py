@@ -44,6 +44,7 @@ from .pictures import Picture, frame, render
 from .prepared import OpenMeshWarning, PreparedScene
 from .scene import Scene, SceneFile, load, scene_of
 from .shapes import Disc, Mesh, Object, Plane, Quadric, Shape, Sphere, Triangle
+from .shutter import Shutter
 from .viewer import View
 
 __all__ = [
@@ -87,6 +88,7 @@ __all__ = [
     "SceneWarning",
     "Shape",
     "Sheen",
+    "Shutter",
     "Specular",
     "SpecularGlossiness",
     "Sphere",

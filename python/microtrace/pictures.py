@@ -19,6 +19,7 @@ from .cameras import Camera, PerspectiveCamera, Vector
 from .lights import Environment
 from .prepared import PreparedScene
 from .scene import Scene
+from .shutter import Shutter
 
 Array = npt.NDArray[Any]
 Quantity = Literal[
@@ -208,6 +209,7 @@ def render(
     max_depth: int = 32,
     crop: tuple[int, int, int, int] | None = None,
     denoise: bool = False,
+    shutter: Shutter | None = None,
     threads: int = 0,
     progress: Callable[[float], bool | None] | bool = False,
 ) -> Picture:
@@ -233,6 +235,8 @@ def render(
             picture. They equal those of the whole picture. Arrays have the size of this part.
         denoise: removes the noise of path-traced colors by the library Open Image Denoise, which
             pip install "microtrace[denoise]" installs.
+        shutter: renders motion blur. Colors, variance and samples show the scenes and cameras of
+            the shutter; other arrays show `scene` and `camera`.
         threads: number of threads; 0 means all processors. It has no effect on the arrays.
         progress: a function that is called with the finished fraction of the work, in [0, 1]. It
             cancels the rendering by returning False. True shows a progress bar if tqdm is
@@ -256,6 +260,10 @@ def render(
     else:
         is_stack = isinstance(camera, Sequence)
         cameras = list(camera) if isinstance(camera, Sequence) else [camera]
+    if shutter is not None and denoise:
+        raise ValueError("denoise can't be combined with a shutter")
+    if shutter is not None and len(cameras) > 1:
+        raise ValueError("a shutter has its own cameras; render one camera at a time")
     if crop is None:
         width, height = size
     else:
@@ -278,6 +286,7 @@ def render(
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
         "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
         "crop": crop,
+        "shutter": None if shutter is None else _shutter_arguments(shutter),
         "threads": as_threads(threads),
     }
     display = (0.0, "none")
@@ -329,6 +338,15 @@ def _prepared(scene: Scene | PreparedScene) -> PreparedScene:
     if isinstance(scene, Scene):
         return scene.prepare()
     raise TypeError(f"expected a Scene or a PreparedScene, not {type(scene)}")
+
+
+def _shutter_arguments(shutter: Shutter) -> tuple[Any, ...]:
+    def moment(time: float) -> tuple[Any, Camera]:
+        scene, camera = shutter.moment(time)
+        return _prepared(scene)._core, camera
+
+    times = as_integer(shutter.times, "times", 1, 65536)
+    return moment, float(shutter.open), float(shutter.close), times
 
 
 def _checked(aovs: Iterable[str]) -> list[str]:

@@ -171,6 +171,34 @@ class Progress {
   std::exception_ptr failure_;
 };
 
+/// Calls a Python function that returns the scene and the camera at a time.
+class Moments {
+ public:
+  explicit Moments(nb::object function) : function_(std::move(function)) {}
+
+  Moment operator()(double time) {
+    const nb::gil_scoped_acquire acquire;
+    try {
+      latest_ = nb::cast<nb::tuple>(function_(time));
+      return {.scene = nb::cast<const Prepared&>(latest_[0]).scene,
+              .camera = camera_from_python(latest_[1])};
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    throw Error(ErrorKind::canceled, "", "the shutter's function failed");
+  }
+
+  /// Rethrows the exception that the function threw, if any.
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  nb::object function_;
+  nb::tuple latest_;  // outlives the renderer's copy, which is destroyed without Python's lock
+  std::exception_ptr failure_;
+};
+
 /// Fills the arrays in `outputs`. outputs["color"], if present, is (height, width, 3 or 4) float32.
 /// Returns the exposure and tone map for displaying the colors.
 nb::object render_into(const Prepared& self, const nb::object& camera_object,
@@ -205,6 +233,14 @@ nb::object render_into(const Prepared& self, const nb::object& camera_object,
     const auto c = nb::cast<std::array<std::uint32_t, 4>>(crop);
     options.crop = PixelRect{.x0 = c[0], .y0 = c[1], .x1 = c[2], .y1 = c[3]};
   }
+  std::optional<Moments> moments;
+  if (const nb::object shutter = arguments["shutter"]; !shutter.is_none()) {
+    moments.emplace(shutter[0]);
+    options.shutter = Shutter{.times = {.open = nb::cast<double>(shutter[1]),
+                                        .close = nb::cast<double>(shutter[2]),
+                                        .count = nb::cast<std::uint32_t>(shutter[3])},
+                              .moment = std::ref(*moments)};
+  }
   const Outputs arrays(outputs);
   const bool has_samples = has_color || !arrays.sampled.empty();
   if (has_samples) {
@@ -222,6 +258,7 @@ nb::object render_into(const Prepared& self, const nb::object& camera_object,
       else
         render_aovs(self.scene, camera, size, arrays.buffers, options);
     } catch (const Error&) {
+      if (moments) moments->rethrow();
       progress.rethrow();
       throw;
     }

@@ -58,6 +58,9 @@ def test_errors(scene, monkeypatch):
         mt.render(scene, size=SIZE, integrator="flat", denoise=True)
     with pytest.raises(ValueError, match="color"):
         mt.render(scene, size=SIZE, integrator="path", aovs=["depth"], denoise=True)
+    shutter = mt.Shutter(lambda time: (scene, mt.frame(scene)), 0, 1)
+    with pytest.raises(ValueError, match="shutter"):
+        mt.render(scene, size=SIZE, integrator="path", denoise=True, shutter=shutter)
     monkeypatch.setenv("MICROTRACE_OIDN_PATH", os.devnull + "/missing")
     with pytest.raises(mt.UnsupportedError, match="pip install"):
         mt.render(scene, size=SIZE, integrator="path", denoise=True)

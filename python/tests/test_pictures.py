@@ -186,6 +186,28 @@ def test_lens():
         mt.render(prepared, mt.PerspectiveCamera(lens_radius=-1), SIZE, spp=1)
 
 
+def test_shutter():
+    def moment(time):
+        scene = mt.Scene()
+        scene.add_sphere((time, 0, 0), 1)
+        return scene, mt.PerspectiveCamera(position=(0, 0, 9))
+
+    scene, camera = moment(0.25)
+    still = mt.render(scene, camera, SIZE, spp=3).color
+    closed = mt.Shutter(moment, 0.25, 0.25)
+    assert np.array_equal(mt.render(scene, camera, SIZE, spp=3, shutter=closed).color, still)
+    moving = mt.Shutter(moment, 0, 2, times=4)
+    pictures = [mt.render(scene, camera, SIZE, spp=3, threads=n, shutter=moving).color for n in (1, 3)]
+    assert np.array_equal(*pictures)
+    assert not np.array_equal(pictures[0], still)
+    with pytest.raises(ValueError, match="power of two"):
+        mt.render(scene, camera, SIZE, spp=3, shutter=mt.Shutter(moment, 0, 1, times=3))
+    with pytest.raises(ValueError, match="one camera"):
+        mt.render(scene, [camera, camera], SIZE, spp=3, shutter=moving)
+    with pytest.raises(ZeroDivisionError):
+        mt.render(scene, camera, SIZE, spp=3, shutter=mt.Shutter(lambda time: 1 / 0, 0, 1))
+
+
 def test_progress_and_cancel():
     prepared = mt.load(KNOT).prepare()
     shares: list[float] = []

@@ -2,6 +2,7 @@
 
 #include <microtrace/aov.hpp>
 #include <microtrace/defaults.hpp>
+#include <microtrace/denoise.hpp>
 #include <microtrace/error.hpp>
 
 #include <algorithm>
@@ -19,6 +20,18 @@ void check_sampling(const SamplingOptions& sampling, bool is_path) {
     refuse_usage("--shard: " + std::to_string(sampling.samples) +
                  " samples (--spp) can't be divided into " + std::to_string(sampling.shard->count) +
                  " shards");
+  }
+}
+
+void check_shutter(const Arguments& a) {
+  if (!a.shutter) return;
+  if (!a.is_path_traced())
+    refuse_usage("--shutter: motion blur needs path tracing; use --integrator path");
+  if (a.denoises) refuse_usage("--denoise can't be combined with --shutter; omit one of them");
+  for (const SampledAov aov : kDenoiseFeatures) {
+    if (std::ranges::find(a.aovs.sampled, aov) == a.aovs.sampled.end()) continue;
+    refuse_usage("--aov: " + std::string(name_of(aov)) +
+                 " can't be combined with --shutter; omit one of them");
   }
 }
 
@@ -53,6 +66,7 @@ void apply_defaults(Arguments& a, SceneFormat format) {
         "--integrator path");
   if (a.sampling.samples == 0) a.sampling.samples = default_samples(*a.integrator);
   check_sampling(a.sampling, a.is_path_traced());
+  check_shutter(a);
   const std::optional<Vec3> color = default_background(format, *a.integrator);
   if (color && !a.environment.background) a.environment.background = Background{.color = *color};
 }

@@ -128,6 +128,8 @@ struct Arguments {
   std::filesystem::path sidecar;  ///< a file, or "-" for standard output; empty if there is none
   LoadOptions load{};
   std::optional<FrameRange> frames{};  ///< output and sidecar are then patterns
+  /// The times of motion blur, relative to the time of the picture.
+  std::optional<ShutterTimes> shutter{};
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
   EnvironmentOptions environment{};

@@ -14,6 +14,7 @@
 #include "cli/pictures/output_paths.hpp"
 #include "cli/pictures/render_picture.hpp"
 #include "cli/pictures/sequence.hpp"
+#include "cli/pictures/shutter.hpp"
 #include "cli/report/statistics.hpp"
 #include "cli/report/validation_result.hpp"
 #include "cli/signals.hpp"
@@ -95,8 +96,16 @@ int render_pictures(cli::Arguments arguments) {
     const auto report_progress = [&](double fraction) {
       if (progress) progress((index + fraction) / sequence.count());
     };
-    cli::render_picture(std::move(scene), camera, size, arguments, files, tables, watch, log,
-                        report_progress);
+    std::optional<Shutter> shutter = cli::shutter_of({.file = file,
+                                                      .arguments = arguments,
+                                                      .environment = environment,
+                                                      .tables = tables,
+                                                      .time = sequence.time(index).value_or(0),
+                                                      .size = size},
+                                                     scene, camera);
+    cli::render_picture(std::move(scene), camera, size, arguments, files, std::move(shutter),
+                        tables, watch, log, report_progress);
+    times = {};  // the scenes of the shutter are loaded while the picture is rendered
   }
   return arguments.validate ? log.print_result(arguments.scene) : 0;
 }

@@ -2,19 +2,22 @@
 #include "float_environment.hpp"
 #include "render/aovs/aov_painter.hpp"
 #include "render/clock.hpp"
-#include "render/lights/lighting.hpp"
 #include "render/prepared/content.hpp"
 #include "render/samples/draw_at_random.hpp"
+#include "render/samples/lit_view.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
 #include "render/view.hpp"
 #include "scene/validate/check_indices.hpp"
 
+#include <microtrace/denoise.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <optional>
@@ -24,10 +27,6 @@
 
 namespace microtrace {
 namespace {
-
-/// Texture filters of Monte Carlo integrators assume this many samples per pixel, because the
-/// actual number is not known in advance.
-constexpr std::uint32_t kSamplesOfRandomTextures = 16;
 
 /// The number of 32-bit numbers per pixel of a film, including its channels.
 std::uint64_t numbers_of_pixel(const RenderOptions& options) {
@@ -52,36 +51,54 @@ Film make_film(ImageSize whole, const PixelRect& window, Film::Alpha alpha, std:
   }
 }
 
+[[noreturn]] void refuse_options(const std::string& message) {
+  throw Error(ErrorKind::usage, "", message);
+}
+
+void check(const Shutter& shutter, const RenderOptions& options) {
+  if (options.integrator == nullptr || !options.integrator->is_random())
+    refuse_options("a shutter requires a Monte Carlo integrator");
+  const ShutterTimes& times = shutter.times;
+  if (!std::isfinite(times.open) || !std::isfinite(times.close) || times.open > times.close)
+    refuse_options("shutter.times.open and close must be finite, and open at most close");
+  if (!std::has_single_bit(times.count) || times.count > kMaxSamples)
+    refuse_options("shutter.times.count must be a power of two from 1 to " +
+                   std::to_string(kMaxSamples) + ", not " + std::to_string(times.count));
+  if (!shutter.moment) refuse_options("shutter.moment must be set");
+  for (const SampledAov aov : options.sampled_aovs) {
+    if (std::ranges::find(kDenoiseFeatures, aov) != kDenoiseFeatures.end())
+      refuse_options(std::string(name_of(aov)) + " can't be combined with a shutter");
+  }
+}
+
 void check(const RenderOptions& options) {
-  const auto refuse = [](const std::string& message) {
-    throw Error(ErrorKind::usage, "", message);
-  };
   if (options.samples < 1 || options.samples > kMaxSamples) {
-    refuse("samples per pixel must be 1 to " + std::to_string(kMaxSamples) + ", not " +
-           std::to_string(options.samples));
+    refuse_options("samples per pixel must be 1 to " + std::to_string(kMaxSamples) + ", not " +
+                   std::to_string(options.samples));
   }
   if (options.samples > 1 && options.integrator != nullptr && options.integrator->is_data())
-    refuse("this integrator returns data, which can't be averaged: set samples to 1");
+    refuse_options("this integrator returns data, which can't be averaged: set samples to 1");
   const bool is_random = options.integrator != nullptr && options.integrator->is_random();
   if (options.passes) {
-    if (!is_random) refuse("passes require a Monte Carlo integrator");
+    if (!is_random) refuse_options("passes require a Monte Carlo integrator");
     const SampleRange part = options.passes->part.value_or(SampleRange{0, options.samples});
     if (options.passes->part && options.passes->target_error > 0)
-      refuse("passes.part can't be combined with passes.target_error");
+      refuse_options("passes.part can't be combined with passes.target_error");
     if (part.first >= part.last || part.last > options.samples)
-      refuse("passes.part must be a nonempty range of the picture's samples, 0 to " +
-             std::to_string(options.samples));
+      refuse_options("passes.part must be a nonempty range of the picture's samples, 0 to " +
+                     std::to_string(options.samples));
   }
+  if (options.shutter) check(*options.shutter, options);
   const auto require_once = [&](auto aovs) {
     std::ranges::sort(aovs);
     if (const auto twice = std::ranges::adjacent_find(aovs); twice != aovs.end())
-      refuse("an output is requested twice: " + std::string(name_of(*twice)));
+      refuse_options("an output is requested twice: " + std::string(name_of(*twice)));
   };
   require_once(options.aovs);
   require_once(options.sampled_aovs);
   if (!options.sampled_aovs.empty() && !is_random) {
-    refuse("this output requires a Monte Carlo integrator: " +
-           std::string(name_of(options.sampled_aovs.front())));
+    refuse_options("this output requires a Monte Carlo integrator: " +
+                   std::string(name_of(options.sampled_aovs.front())));
   }
 }
 
@@ -94,28 +111,17 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
   const auto start = Clock::now();
   const FlatIntegrator flat;
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
-  const std::uint32_t samples = integrator.is_random() ? kSamplesOfRandomTextures : options.samples;
 
   const auto shown = content_for(content, camera, size);
   // Exact quantities refer to the untranslated scene.
   const SceneView exact(shown, camera, size);
-  std::optional<SceneView> near;
-  if (integrator.is_random()) {
-    if (const auto moved = shown->recentered(camera))
-      near.emplace(moved->content, moved->camera, size);
-  }
-  const SceneView& view = near ? *near : exact;
+  const SceneView view = integrator.is_random() ? near_origin(shown, camera, size) : exact;
   (void)view.content->bvh();
   if (!options.aovs.empty()) (void)exact.content->bvh();
   const auto built = Clock::now();
 
-  World world = view.world(samples);
-  world.seed = options.seed;
-  std::optional<Lighting> lighting;
-  if (integrator.is_random()) {
-    world.shading = &view.content->shading();
-    world.lighting = &lighting.emplace(view.content->lighting(options.environment));
-  }
+  std::optional<LitView> lit;
+  if (integrator.is_random()) lit.emplace(view, options);
   Film film =
       make_film(size, window, options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none,
                 numbers_of_pixel(options));
@@ -129,8 +135,8 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
   const auto paint_channels = [&](const PixelRect& tile) {
     if (channels) channels->paint(tile);
   };
-  if (integrator.is_random()) {
-    draw_at_random({.world = world,
+  if (lit) {
+    draw_at_random({.world = lit->world(),
                     .integrator = integrator,
                     .options = options,
                     .window = window,
@@ -138,6 +144,8 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
                     .start = start},
                    film, paint_channels);
   } else {
+    World world = view.world(options.samples);
+    world.seed = options.seed;
     const TilePainter colors(world, integrator, options, window, film);
     const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {
       colors.paint(tile);

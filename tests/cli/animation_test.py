@@ -184,6 +184,74 @@ class Animation(ProgramTest):
             self.assertIn(fragment, result.stderr.decode(), arguments)
             self.assertEqual(os.listdir(self.folder), ["move.gltf"], arguments)
 
+    def blurred(self, *arguments, code=0):
+        """Returns the picture with motion blur, or the error."""
+        output = [] if {"-o", "--shard"} & set(arguments) else ["-o", "-"]
+        result = self.run_program("move.gltf", "--integrator", "path", "--env", "1,1,1", "--size", "40x30", "--spp", "5",
+                                  "-q", *arguments, *output)
+        self.assertEqual(result.returncode, code, (arguments, result.stderr))
+        return result.stdout if code == 0 else result.stderr.decode()
+
+    def test_shutter_without_motion_is_the_still_picture(self):
+        still = self.blurred("--time", "0.5")
+        self.assertEqual(self.blurred("--time", "0.25", "--shutter", "0.25:0.25"), still)
+        self.assertEqual(self.blurred("--shutter", "0.5:0.5"), still)
+        # The animation ends after two seconds.
+        self.assertEqual(self.blurred("--shutter", "2:3", "--shutter-times", "4"), self.blurred("--time", "2"))
+        self.assertNotEqual(self.blurred("--time", "0.25", "--shutter", "0.24:0.26"), self.blurred("--time", "0.25"))
+
+    def test_shutter_is_relative_to_the_time_of_the_picture(self):
+        blurred = self.blurred("--shutter", "0.5:1")
+        for options in (["--time", "0.75", "--shutter", "-0.25:0.25"],
+                        ["--frames", "3:3", "--fps", "4", "--shutter", "-0.25:0.25"],
+                        ["--shutter", "0.5:1", "--shutter-times", "64", "-t", "3"]):
+            self.assertEqual(self.blurred(*options), blurred, options)
+        self.assertNotEqual(self.blurred("--shutter", "0.5:1", "--shutter-times", "2"), blurred)
+        self.blurred("--shutter", "0:1", "--sidecar", "a.json", "--time", "0.5", "-o", "a.ppm")
+        sidecar = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual(sidecar["shutter"], {"open": 0.5, "close": 1.5, "times": 64})
+
+    def test_a_still_view_and_a_moving_camera(self):
+        asset = json.loads((self.folder / "move.gltf").read_text())
+        # The camera moves with the square, so that nothing moves in the picture.
+        asset["animations"][0]["channels"].append({"sampler": 1, "target": {"node": 1, "path": "translation"}})
+        asset["animations"][0]["samplers"].append(dict(asset["animations"][0]["samplers"][0]))
+        asset["nodes"] = [{"mesh": 0}, {"children": [2]}, {"camera": 0, "translation": [2, 2, 10]}]
+        (self.folder / "move.gltf").write_text(json.dumps(asset))
+        still = self.blurred("--time", "0")
+        self.assertEqual(self.blurred("--shutter", "0:1", "--shutter-times", "8"), still)
+        view = ["--view", "front"]
+        self.assertNotEqual(self.blurred("--shutter", "0:1", "--shutter-times", "8", *view), self.blurred("--time", "0", *view))
+
+    def test_parts_of_a_blurred_picture(self):
+        shutter = ["--shutter", "0:1", "--shutter-times", "8"]
+        whole = self.blurred(*shutter)
+        for shard in (1, 2):
+            self.blurred(*shutter, "--shard", f"{shard}/2", "--checkpoint", f"{shard}.c")
+        merged = self.run_program("merge", "1.c", "2.c", "-q", "-o", "-")
+        self.assertEqual((merged.returncode, merged.stdout), (0, whole), merged.stderr)
+        few = self.run_program("move.gltf", "--integrator", "path", "--env", "1,1,1", "--size", "40x30", "--spp", "3", "-q",
+                               *shutter, "--checkpoint", "c", "-o", "a.ppm")
+        self.assertEqual(few.returncode, 0, few.stderr)
+        self.assertEqual(self.blurred(*shutter, "--resume", "c"), whole)
+        error = self.blurred("--shutter", "0:1.5", "--shutter-times", "8", "--resume", "1.c", code=2)
+        self.assertIn("1.c: holds samples of another picture: ", error)
+
+    def test_shutter_errors(self):
+        for arguments, message in (
+            (["--shutter", "1:0"], "--shutter: expects OPEN:CLOSE"), (["--shutter", "1"], "--shutter: expects OPEN:CLOSE"),
+            (["--shutter", "0:nan"], "--shutter: expects a number"), (["--shutter", "0:"], "--shutter: expects a number"),
+            (["--shutter-times", "4"], "--shutter-times requires --shutter"),
+            (["--shutter", "0:1", "--shutter-times", "5"], "--shutter-times: expects a power of two, not 5"),
+            (["--shutter", "0:1", "--shutter-times", "0"], "--shutter-times: must be a whole number"),
+            (["--shutter", "0:1", "--aov", "denoise_albedo", "-o", "a.exr"], "--aov: denoise_albedo can't be combined"),
+            (["--shutter", "0:1", "--denoise"], "--denoise can't be combined with --shutter"),
+        ):
+            self.assertIn(message, self.blurred(*arguments, code=2), arguments)
+        flat = self.run_program("move.gltf", *FLAT, "--shutter", "0:1", "-o", "a.ppm")
+        self.assertEqual((flat.returncode, flat.stderr.split(b"\n")[0]),
+                         (2, b"error: --shutter: motion blur needs path tracing; use --integrator path"))
+
     def test_percent_signs_in_file_names(self):
         self.assertEqual(self.frames("--frames", "7:7", "-o", "100%%_%d.ppm").returncode, 0)
         self.assertIn("100%_7.ppm", os.listdir(self.folder))

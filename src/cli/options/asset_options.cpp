@@ -2,6 +2,8 @@
 #include "cli/options/option.hpp"
 
 #include <array>
+#include <bit>
+#include <string>
 
 namespace microtrace::cli {
 namespace {
@@ -10,6 +12,23 @@ std::filesystem::path parse_folder(const OptionValue& value) {
   std::error_code error;
   if (!std::filesystem::is_directory(value.text, error)) value.refuse("a folder that exists");
   return value.text;
+}
+
+ShutterTimes parse_shutter(const OptionValue& value) {
+  const std::size_t colon = value.text.find(':');
+  if (colon != std::string::npos) {
+    const OptionValue open{.option = value.option, .text = value.text.substr(0, colon)};
+    const OptionValue close{.option = value.option, .text = value.text.substr(colon + 1)};
+    const ShutterTimes times{.open = open.number(), .close = close.number()};
+    if (times.open <= times.close) return times;
+  }
+  value.refuse("OPEN:CLOSE, seconds in ascending order, such as 0:0.02");
+}
+
+std::uint32_t parse_times(const OptionValue& value) {
+  const std::uint32_t count = value.whole_number(1, kMaxSamples);
+  if (!std::has_single_bit(count)) value.refuse("a power of two");
+  return count;
 }
 
 constexpr std::array kAssetOptions{
@@ -44,6 +63,23 @@ constexpr std::array kAssetOptions{
            .needs = "--frames",
            .set = [](Arguments& a,
                      const OptionValue& value) { a.frames->fps = value.positive_number(); }},
+    Option{.names = "--shutter",
+           .metavar = "A:B",
+           .help = "motion blur in path-traced pictures: the shutter opens A seconds and closes B "
+                   "seconds after the time of the picture, which is --time (0 if not given) or "
+                   "that of the frame",
+           .default_value = "no motion blur",
+           .samples = Samples::change,
+           .set = [](Arguments& a, const OptionValue& value) { a.shutter = parse_shutter(value); }},
+    Option{.names = "--shutter-times",
+           .metavar = "N",
+           .help = "number of times from A to B at which the scene is posed, a power of two from 1 "
+                   "to 65536; each sample sees one of them",
+           .default_value = "64",
+           .samples = Samples::change,
+           .needs = "--shutter",
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.shutter->count = parse_times(value); }},
     Option{.names = "--variant",
            .metavar = "NAME",
            .help = "material variant of a glTF asset, by name or by index from 0",

@@ -38,7 +38,8 @@ std::vector<OptionGroup> option_groups(Command command) {
             {"Integrator and samples", sampling_options()},
             {"Light", light_options()},
             {"Display", display_options()},
-            {"glTF assets", asset_options()},
+            {"glTF assets", rows(asset_options(), "--time", "--fps")},
+            {"glTF assets", rows(asset_options(), "--variant", "--allow-path")},
             {"Running", rows(running_options(), "--threads", "--memory-limit")},
             {"Running", rows(running_options(), "--progress", "--strict")},
             {"Messages and help", common_options()}};

@@ -182,6 +182,7 @@ void check_view(const Arguments& a) {
 
 /// Checks rules that involve several options and sets values that depend on others.
 void complete(Arguments& a) {
+  if (a.shutter && !a.frames && !a.load.time) a.load.time = 0;
   check_view(a);
   if (a.output.empty() && !a.validate && !a.sampling.shard)
     a.output = default_output(a.scene, a.frames.has_value());

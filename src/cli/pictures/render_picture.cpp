@@ -1,5 +1,6 @@
 #include "cli/pictures/render_picture.hpp"
 
+#include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/output_paths.hpp"
@@ -7,6 +8,7 @@
 #include "cli/report/scene_summary.hpp"
 #include "cli/report/written_files.hpp"
 #include "cli/signals.hpp"
+#include "scene/mesh/mesh_memory.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
@@ -29,11 +31,13 @@ bool needs_ids_for_sidecar_only(const Arguments& arguments, const PictureFiles& 
          std::ranges::find(arguments.aovs.exact, Aov::id) == arguments.aovs.exact.end();
 }
 
-void save_picture(const Arguments& arguments, const Scene& scene, const Camera& camera, Film& film,
+void save_picture(const Arguments& arguments, const Scene& scene, const Camera& camera,
+                  const std::optional<ShutterTimes>& shutter, Film& film,
                   const PictureFiles& files) {
   Sidecar sidecar{.path = files.sidecar, .text = {}};
   if (!files.sidecar.empty())
-    sidecar.text = describe_picture(scene, camera, film, files.picture.filename().string());
+    sidecar.text =
+        describe_picture(scene, camera, film, files.picture.filename().string(), shutter);
   if (needs_ids_for_sidecar_only(arguments, files))
     std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
   save_image(film, files.picture, arguments.ppm, files.sidecar.empty() ? nullptr : &sidecar);
@@ -131,7 +135,8 @@ void check_outputs(const Arguments& arguments, const Sequence& sequence) {
 }
 
 void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                    const PictureFiles& files, Tables& tables, Stopwatch& watch, Warnings& warnings,
+                    const PictureFiles& files, std::optional<Shutter> shutter, Tables& tables,
+                    Stopwatch& watch, Warnings& warnings,
                     const std::function<void(double)>& progress) {
   if (arguments.verbose) print_scene_summary(arguments, scene, size);
   const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
@@ -145,6 +150,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
       .samples = arguments.sampling.samples,
       .filter = arguments.sampling.filter,
       .seed = arguments.sampling.seed,
+      .shutter = std::move(shutter),
       .counts = &counts,
       .memory = arguments.load.memory,
       .crop = arguments.crop,
@@ -168,6 +174,9 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
       (arguments.sampling.shard || files.picture == "-" ? arguments.scene : files.picture.string());
   if (files.viewer != nullptr) show_passes(options, *files.viewer, shown_name);
   const auto start = std::chrono::steady_clock::now();
+  // SceneFile no longer counts the memory of this scene once it makes the shutter's scenes.
+  MemoryAccount still(options.memory);
+  if (options.shutter) still.take(memory_of(scene), "the scene at the time of the picture");
   const double max_cost_growth = max_cost_growth_of(scene, size, options.samples);
   const PreparedScene prepared(std::move(scene), {.threads = options.threads,
                                                   .memory = options.memory,
@@ -195,7 +204,10 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
     warnings.report_picture(
         picture_warning(view_of(film, drawn, camera, options), arguments, drawn));
-  if (!arguments.sampling.shard) save_picture(arguments, drawn, camera, film, files);
+  if (!arguments.sampling.shard) {
+    const auto times = options.shutter ? std::optional(options.shutter->times) : std::nullopt;
+    save_picture(arguments, drawn, camera, times, film, files);
+  }
   watch.written();
   if (reports_files(arguments)) {
     report_written({.main = arguments.sampling.shard ? files.samples->checkpoint() : files.picture,

@@ -8,11 +8,15 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/denoise.hpp>
+#include <microtrace/prepared_scene.hpp>
 #include <microtrace/scene.hpp>
+#include <microtrace/shutter.hpp>
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 
 namespace microtrace::cli {
 
@@ -39,9 +43,10 @@ using Tables = std::shared_ptr<const SharedTables>;
 
 /// Renders a scene to which apply_environment() has been applied. Writes the picture and the
 /// sidecar, or only the samples if a shard is rendered. Warns before writing a picture that shows
-/// nothing.
+/// nothing. `shutter` is absent without --shutter.
 void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                    const PictureFiles& files, Tables& tables, Stopwatch& watch, Warnings& warnings,
+                    const PictureFiles& files, std::optional<Shutter> shutter, Tables& tables,
+                    Stopwatch& watch, Warnings& warnings,
                     const std::function<void(double)>& progress);
 
 }  // namespace microtrace::cli

@@ -144,7 +144,8 @@ std::string list(std::size_t count, Item&& item) {
 }  // namespace
 
 std::string describe_picture(const Scene& scene, const Camera& camera, const Film& film,
-                             const std::string& picture) {
+                             const std::string& picture,
+                             const std::optional<ShutterTimes>& shutter) {
   const FloatEnvironment environment;
   const auto seen = io::find_seen_pixels(film, scene.objects.size());
   const ImageSize size = film.size();
@@ -154,6 +155,11 @@ std::string describe_picture(const Scene& scene, const Camera& camera, const Fil
   text.append(",\n  \"crop\": ");
   text.append(array({film.x0, film.y0, film.x0 + size.width, film.y0 + size.height}));
   if (!film.denoiser.empty()) text.append(",\n  \"denoiser\": ").append(quoted(film.denoiser));
+  if (shutter) {
+    text.append(",\n  \"shutter\": {\"open\": ").append(number(shutter->open));
+    text.append(", \"close\": ").append(number(shutter->close));
+    text.append(", \"times\": ").append(number(shutter->count)).append("}");
+  }
   text.append(",\n  \"camera\": ").append(camera_text(camera, film.whole, scene.origin));
   text.append(",\n  \"objects\": ");
   text.append(list(scene.objects.size(), [&](std::size_t i) {

@@ -3,8 +3,8 @@
 #include "base/memory_account.hpp"
 #include "render/aovs/sampled_aov_painter.hpp"
 #include "render/film_pixel.hpp"
+#include "render/samples/painters.hpp"
 #include "render/samples/passes.hpp"
-#include "render/samples/random_painter.hpp"
 #include "render/tiles.hpp"
 
 #include <microtrace/error.hpp>
@@ -47,7 +47,7 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
   const PixelRect& window = drawing.window;
   const Vec3 background =
       options.transparent ? Vec3(0) : options.background.value_or(drawing.world.scene.background);
-  const RandomPainter painter(drawing.world, drawing.integrator, options, background);
+  Painters painters(drawing, film.whole, background);
   const SampleRange all{.first = 0, .last = options.samples};
   std::uint32_t samples_per_pixel = options.samples;
   const SampledAovPainter channels(drawing.world, options, background, window, film);
@@ -56,15 +56,16 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
               background);
     channels.set(std::size_t{y - window.y0} * film.size().width + (x - window.x0), pixel);
   };
-  if (options.passes) {
+  if (options.passes || options.shutter) {
+    const Passes passes = options.passes.value_or(Passes{});
     SampleSums own;
-    SampleSums& sums = options.passes->sums != nullptr ? *options.passes->sums : own;
+    SampleSums& sums = passes.sums != nullptr ? *passes.sums : own;
     prepare(sums, drawing, film.whole, background);
-    run_passes(painter, options.passes->part.value_or(all), *options.passes, drawing.start,
-               drawing.threads, options.progress, sums);
+    run_passes(painters, passes.part.value_or(all), passes, drawing.start, drawing.threads,
+               options.progress, sums);
     samples_per_pixel = sums.count();
     // The channels of a part are those of the whole picture.
-    const bool is_part = options.passes->part.has_value();
+    const bool is_part = passes.part.has_value();
     const std::vector<SampleRange> taken = is_part ? std::vector{all} : sums.ranges();
     const auto finish = [&](const PixelRect& tile, const auto& /*poll*/) {
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
@@ -75,6 +76,7 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
     };
     for_each_tile(window, drawing.threads, finish, nullptr);
   } else {
+    const RandomPainter& painter = painters.at(0);
     const auto draw = [&](const PixelRect& tile, const auto& poll) {
       std::array<PixelSum, kTilePixels> sums{};
       for (SampleRange part{.first = 0, .last = 0}; part.last < all.last; poll()) {
@@ -91,8 +93,8 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
     for_each_tile(window, drawing.threads, draw, options.progress);
   }
   if (options.counts != nullptr) {
-    *options.counts = {.samples = painter.samples(),
-                       .invalid_samples = painter.invalid_samples(),
+    *options.counts = {.samples = painters.samples(),
+                       .invalid_samples = painters.invalid_samples(),
                        .samples_per_pixel = samples_per_pixel};
   }
 }

@@ -66,7 +66,8 @@ class Stops {
 
   /// The part of the range that precedes the next check.
   [[nodiscard]] SampleRange until_check(SampleRange range) const {
-    if (target_ > 0) range.last = std::min(range.last, std::bit_ceil(range.first + 1));
+    const std::uint32_t next = std::max(kFirstCheck, std::bit_ceil(range.first + 1));
+    if (target_ > 0) range.last = std::min(range.last, next);
     return range;
   }
 
@@ -81,7 +82,7 @@ class Stops {
 
 }  // namespace
 
-void run_passes(const RandomPainter& painter, const SampleRange& wanted, const Passes& passes,
+void run_passes(Painters& painters, const SampleRange& wanted, const Passes& passes,
                 std::chrono::steady_clock::time_point start, Threads& threads,
                 const std::function<bool(double)>& progress, SampleSums& sums) {
   std::uint32_t to_do = 0, done = 0;
@@ -99,14 +100,20 @@ void run_passes(const RandomPainter& painter, const SampleRange& wanted, const P
     stops.update(sums);
     if (stops.all() || (done > 0 && is_up())) break;
     SampleRange range = sums.missing(wanted).front();
-    range.last = std::min(range.last, range.first + std::clamp(done, 1U, kSamplesPerPass));
+    range.last = std::min(range.last, range.first + std::max(std::clamp(done, 1U, kSamplesPerPass),
+                                                             painters.least_pass()));
     range = stops.until_check(range);
-    const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {
-      if (!stops.at(tile_index(tile, sums.window))) add_tile(painter, tile, range, target);
-    };
-    const auto tell = [&](double share) { return progress((done + share * range.size()) / to_do); };
-    for_each_tile(sums.window, threads, draw,
-                  progress ? std::function<bool(double)>(tell) : nullptr);
+    for (std::uint32_t slice = 0; slice < painters.slices(); ++slice) {
+      const RandomPainter& painter = painters.at(slice);
+      const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {
+        if (!stops.at(tile_index(tile, sums.window))) add_tile(painter, tile, range, target);
+      };
+      const auto tell = [&](double share) {
+        return progress((done + (slice + share) / painters.slices() * range.size()) / to_do);
+      };
+      for_each_tile(sums.window, threads, draw,
+                    progress ? std::function<bool(double)>(tell) : nullptr);
+    }
     if (&target == &pass) {
       const auto move = [&](const PixelRect& tile, const auto& /*poll*/) {
         move_tile(tile, pass, sums);

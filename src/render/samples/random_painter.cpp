@@ -12,13 +12,15 @@
 namespace microtrace {
 
 RandomPainter::RandomPainter(const World& world, const Integrator& integrator,
-                             const RenderOptions& options, const Vec3& background)
+                             const RenderOptions& options, const Vec3& background,
+                             const sampling::TimeSlice& slice)
     : world_(world),
       integrator_(integrator),
       ray_(world.camera, world.scene),
       filter_(options.filter),
       background_(background),
       has_alpha_(options.transparent),
+      slice_(slice),
       kernels_(kShadingKernels.best()) {}
 
 void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
@@ -34,21 +36,25 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
     std::uint32_t x, y;
   };
   std::array<Pixel, kTilePixels> pixels;
-  std::array<std::uint32_t, kTilePixels> keys{};
+  std::array<std::uint32_t, kTilePixels> keys{}, first_samples{};
   std::size_t count = 0;
   for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
     for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
       keys[count] = sampling::pixel_key(world_.seed, x, y);
+      first_samples[count] = sampling::first_sample_in(slice_, keys[count]);
       pixels[count++] = {.x = x, .y = y};
     }
   }
-  // Loops over samples first, so that the rays of neighboring pixels form packets.
+  // Loops over samples first, so that the rays of neighboring pixels form packets. Each pixel has
+  // one sample in the slice among `slice_.count` samples.
   static_assert(kTilePixels % kShadingLanes == 0);
   std::array<std::uint32_t, kShadingLanes> indices;
   std::array<float, kShadingLanes> u, v, lens_u{}, lens_v{};
-  for (std::uint32_t k = range.first; k < range.last; ++k) {
-    indices.fill(k);
+  std::uint64_t added = 0;
+  for (std::uint32_t k = range.first - range.first % slice_.count; k < range.last;
+       k += slice_.count) {
     for (std::size_t first = 0; first < count; first += kShadingLanes) {
+      for (std::size_t i = 0; i < kShadingLanes; ++i) indices[i] = k + first_samples[first + i];
       kernels_.random_pairs(&keys[first], indices.data(), sampling::kPixelPair, u.data(), v.data());
       if (ray_.has_lens()) {
         kernels_.random_pairs(&keys[first], indices.data(), sampling::kLensPair, lens_u.data(),
@@ -56,17 +62,19 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
       }
       const std::size_t size = std::min<std::size_t>(count - first, kShadingLanes);
       for (std::size_t i = 0; i < size; ++i) {
+        if (indices[i] < range.first || indices[i] >= range.last) continue;
         if (batch.is_full()) trace();
+        ++added;
         const Pixel pixel = pixels[first + i];
         const PixelOffset offset = filter_(u[i], v[i]);
-        const SampleId id{.x = pixel.x, .y = pixel.y, .index = k, .key = keys[first + i]};
+        const SampleId id{.x = pixel.x, .y = pixel.y, .index = indices[i], .key = keys[first + i]};
         const double x = pixel.x + offset.x, y = pixel.y + offset.y;
         batch.add(first + i, id, [&] { return ray_.sample(x, y, {lens_u[i], lens_v[i]}); });
       }
     }
   }
   trace();
-  samples_ += std::uint64_t{tile.size().width} * tile.size().height * range.size();
+  samples_ += added;
   invalid_ += invalid;
 }
 

@@ -4,6 +4,7 @@
 #include "render/camera_rays.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/samples/pixel_filter.hpp"
+#include "render/sampling/time_slice.hpp"
 
 #include <microtrace/integrator.hpp>
 #include <microtrace/render.hpp>
@@ -19,9 +20,9 @@ namespace microtrace {
 class RandomPainter {
  public:
   /// `world` and `integrator` must outlive this object. Luminance is that of samples composited
-  /// over this background.
+  /// over this background. Only samples in this slice of time are added.
   RandomPainter(const World& world, const Integrator& integrator, const RenderOptions& options,
-                const Vec3& background);
+                const Vec3& background, const sampling::TimeSlice& slice = {});
 
   /// Adds the samples of this range to the sums of a tile's pixels, which are stored row by row.
   /// The tile has at most kTileEdge pixels per side. Ranges of 16 samples or more are most
@@ -39,6 +40,7 @@ class RandomPainter {
   FilterSampler filter_;
   Vec3 background_;
   bool has_alpha_;
+  sampling::TimeSlice slice_;
   const ShadingKernels& kernels_;
   mutable std::atomic<std::uint64_t> samples_ = 0, invalid_ = 0;
 };

@@ -1,13 +1,14 @@
 #pragma once
 /// Numbers of the pairs of random numbers of a sample. Changing the number of a pair changes every
-/// path-traced picture. Pairs above 2^31 are unused and available for other purposes.
+/// path-traced picture. Pairs above 2^31 + 1 are unused and available for other purposes.
 
 #include <cstdint>
 
 namespace microtrace::sampling {
 
-inline constexpr std::uint32_t kPixelPair = 0;         ///< position within the pixel
-inline constexpr std::uint32_t kLensPair = 1U << 31U;  ///< position on the camera's lens
+inline constexpr std::uint32_t kPixelPair = 0;                ///< position within the pixel
+inline constexpr std::uint32_t kLensPair = 1U << 31U;         ///< position on the camera's lens
+inline constexpr std::uint32_t kShutterPair = kLensPair + 1;  ///< time of the sample
 
 /// Each path vertex has this many pairs, starting at kFirstVertexPair.
 inline constexpr std::uint32_t kFirstVertexPair = 1, kVertexPairs = 5;
