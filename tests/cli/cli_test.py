@@ -207,7 +207,9 @@ class CommandLine(ProgramTest):
         document["cameras"][0] |= {"lens_radius": 0.3, "focus": 9}
         for item in document["objects"]:
             if "file" in item:
-                item["file"] = str(SOURCE / "scenes" / item["file"])
+                mesh = SOURCE / "scenes" / item["file"]
+                (self.folder / mesh.name).write_bytes(mesh.read_bytes())
+                item["file"] = mesh.name
         (self.folder / "lens.json").write_text(json.dumps(document))
         self.assertEqual(self.picture(self.folder / "lens.json", *light), blurred)
         self.assertNotEqual(self.picture(self.folder / "lens.json", *light, "--focus", "3"), blurred)

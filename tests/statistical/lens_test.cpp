@@ -97,5 +97,28 @@ TEST(Lens, BlurHasTheRadiusOfTheCircleOfConfusion) {
   }
 }
 
+/// A floor and a ball that emits light, all lengths multiplied by a factor.
+Film scaled_picture(float factor) {
+  Scene scene;
+  scene.materials = {{}, {.emissive = Vec3(2, 1, 0.5F)}};
+  const Mesh floor =
+      parallelogram(factor * Vec3(-4, -1, 0), factor * Vec3(8, 0, 0), factor * Vec3(0, 0, -8));
+  scene.objects.push_back({.name = "floor", .shape = floor, .material = 0});
+  scene.objects.push_back(
+      {.name = "ball", .shape = Sphere{factor * Vec3(0.5F, 0, -3), factor * 0.75F}, .material = 1});
+  scene.environment = Environment{.content = Vec3(0.2F)};
+  const PerspectiveCamera camera{.pose = {.position = double{factor} * DVec3(0.1, 0.3, 2)},
+                                 .vertical_fov = 0.7,
+                                 .focus = 5.0 * double{factor},
+                                 .lens_radius = 0.3 * double{factor}};
+  return shoot(scene, camera, {.size = {.width = 24, .height = 18}, .samples = 8});
+}
+
+TEST(Lens, ScalesWithTheScene) {
+  const auto pixels = pixels_of(scaled_picture(1));
+  for (const float factor : {0x1p-20F, 0x1p7F, 0x1p30F})
+    EXPECT_EQ(pixels_of(scaled_picture(factor)), pixels) << factor;
+}
+
 }  // namespace
 }  // namespace microtrace
