@@ -32,7 +32,7 @@ class PerspectiveCamera(_Posed):
     aspect_ratio: float | None = None
     #: Depth of the points that are sharp if the camera has a lens; positive.
     focus: float = 1.0
-    #: Radius of the lens in world units; 0 is a pinhole. Only path-traced pictures show depth of field.
+    #: Radius of the lens in world units; 0 is a pinhole. Only path-traced pictures show blur.
     lens_radius: float = 0.0
     near: float = 0.0  #: depth from which surfaces are visible
     far: float = inf  #: depth up to which surfaces are visible

@@ -10,7 +10,6 @@ from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
-
 from microtrace_program import find_denoiser
 
 from . import _core

@@ -197,7 +197,9 @@ def test_shutter():
     closed = mt.Shutter(moment, 0.25, 0.25)
     assert np.array_equal(mt.render(scene, camera, SIZE, spp=3, shutter=closed).color, still)
     moving = mt.Shutter(moment, 0, 2, times=4)
-    pictures = [mt.render(scene, camera, SIZE, spp=3, threads=n, shutter=moving).color for n in (1, 3)]
+    pictures = [
+        mt.render(scene, camera, SIZE, spp=3, threads=n, shutter=moving).color for n in (1, 3)
+    ]
     assert np.array_equal(*pictures)
     assert not np.array_equal(pictures[0], still)
     with pytest.raises(ValueError, match="power of two"):

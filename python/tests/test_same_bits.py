@@ -33,14 +33,14 @@ digest.update(prepared.locate(rays[:5000, :3], threads=threads).tobytes())
 nearest = prepared.closest_point(rays[:500, :3], threads=threads)
 for array in (nearest.position, nearest.distance, nearest.primitive, nearest.barycentrics):
     digest.update(array.tobytes())
-names = ["color", "depth", "position", "normal", "uv", "object", "variance", "denoise_albedo"]
+names = ["color", "depth", "position", "normal", "uv", "object", "variance", "denoise_normal"]
 picture = mt.render(prepared, size=(48, 36), spp=3, aovs=names, threads=threads)
 for name in names:
     digest.update(picture[name].tobytes())
 print(digest.hexdigest())
 """
 
-EXPECTED = "72058fce6b9757962e387428a04591f80ad13ffda7e5e13c38b38f6a160f0b3e"
+EXPECTED = "bdb9934694c274ad883f5bd10227467e2881738d13b0497f525763c6e43db452"
 
 
 @pytest.mark.parametrize("instruction_set", ["portable", "avx2", "avx512"])

@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from distributed import Client, get_worker
-
 from microtrace_program import find_denoiser
 
 from .. import _core
