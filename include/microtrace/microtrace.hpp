@@ -16,6 +16,7 @@
 #include <microtrace/error.hpp>
 #include <microtrace/explain.hpp>
 #include <microtrace/export.hpp>
+#include <microtrace/exposure.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/film_view.hpp>
 #include <microtrace/fixed_sum.hpp>

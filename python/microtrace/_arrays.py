@@ -72,6 +72,17 @@ def as_integer(value: Any, what: str, low: int, high: int) -> int:
     return number
 
 
+def as_real(value: Any, what: str, low: float, high: float) -> float:
+    """Returns a number in [low, high]. Raises TypeError or ValueError otherwise."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} must be a number, not {value!r}") from None
+    if not low <= number <= high:
+        raise ValueError(f"{what} must be from {low} to {high}, not {number}")
+    return number
+
+
 def as_size(value: Any) -> tuple[int, int]:
     """Returns width and height in pixels."""
     if len(value) != 2:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from microtrace_program import find_denoiser
 
 from . import _core
-from ._arrays import as_color, as_crop, as_integer, as_size, as_threads
+from ._arrays import as_color, as_crop, as_integer, as_real, as_size, as_threads
 from .cameras import Camera, PerspectiveCamera, Vector
 from .lights import Environment
 from .prepared import PreparedScene
@@ -108,7 +108,7 @@ class Picture(Mapping[str, Array]):
         """Returns the colors as 8-bit sRGB: the numbers that the program writes to a PNG.
 
         Args:
-            exposure: in stops; colors are multiplied by 2^exposure. Default: 0.
+            exposure: in stops; colors are multiplied by 2^exposure. Default: that of render().
             tone_map: default: "khronos-pbr-neutral" for path-traced pictures, "none" for others.
 
         Returns:
@@ -208,6 +208,7 @@ def render(
     max_depth: int = 32,
     crop: tuple[int, int, int, int] | None = None,
     denoise: bool = False,
+    exposure: float | Literal["auto"] | None = None,
     shutter: Shutter | None = None,
     threads: int = 0,
     progress: Callable[[float], bool | None] | bool = False,
@@ -234,6 +235,10 @@ def render(
             picture. They equal those of the whole picture. Arrays have the size of this part.
         denoise: removes the noise of path-traced colors by the library Open Image Denoise, which
             pip install "microtrace[denoise]" installs.
+        exposure: the exposure, in stops, with which 8-bit colors are shown; color itself doesn't
+            depend on it. "auto" is the exposure nearest to 0 at which surfaces are neither blown
+            out nor black to the first camera; a small picture of 48 pixels is rendered for it.
+            Default: "auto" for path-traced glTF assets and arrays with lights, else 0.
         shutter: renders motion blur. Colors, variance and samples show the scenes and cameras of
             the shutter; other arrays show `scene` and `camera`.
         threads: number of threads; 0 means all processors. It has no effect on the arrays.
@@ -288,19 +293,34 @@ def render(
         "shutter": None if shutter is None else _shutter_arguments(shutter),
         "threads": as_threads(threads),
     }
-    display = (0.0, "none")
+    stops = _exposure(exposure, prepared, method, wanted)
+    if stops is None:
+        stops = _core.automatic_exposure(prepared._core, cameras[0], arguments) if cameras else 0.0
+    tone_map = "none"
     with _shown(progress, len(cameras)) as show:
         for k, each in enumerate(cameras):
             outputs = {name: array[k] for name, array in arrays.items()}
             share = None if show is None else (lambda x, k=k: show((k + x) / len(cameras)))
-            display = _core.render(prepared._core, each, outputs, {**arguments, "progress": share})
+            tone_map = _core.render(prepared._core, each, outputs, {**arguments, "progress": share})
     if denoise:
         _denoise(arrays, wanted, as_threads(threads))
     for name, array in arrays.items():
         if array.shape[-1] == 1:
             array = array[..., 0]
         arrays[name] = array if is_stack else array[0]
-    return Picture(arrays, *display, denoiser)
+    return Picture(arrays, stops, tone_map, denoiser)
+
+
+def _exposure(
+    exposure: float | str | None, prepared: PreparedScene, integrator: str, names: list[str]
+) -> float | None:
+    """Returns the exposure in stops, or None for an automatic one."""
+    if exposure == "auto":
+        return None
+    if exposure is None:
+        is_lit = integrator == "path" and "color" in names and prepared._core.has_lights
+        return None if is_lit and not prepared._core.is_flat else 0.0
+    return as_real(exposure, "exposure", -64, 64)
 
 
 #: The arrays that denoising needs.

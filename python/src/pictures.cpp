@@ -7,6 +7,7 @@
 #include "scene_writer.hpp"
 
 #include <microtrace/denoise.hpp>
+#include <microtrace/exposure.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -199,36 +200,61 @@ class Moments {
   std::exception_ptr failure_;
 };
 
-/// Fills the arrays in `outputs`. outputs["color"], if present, is (height, width, 3 or 4) float32.
-/// Returns the exposure and tone map for displaying the colors.
-nb::object render_into(const Prepared& self, const nb::object& camera_object,
-                       const nb::dict& outputs, const nb::dict& arguments) {
-  const Camera camera = camera_from_python(camera_object);
+ImageSize size_of(const nb::dict& arguments) {
   const auto [width, height] = nb::cast<std::array<std::uint32_t, 2>>(arguments["size"]);
-  const ImageSize size{.width = width, .height = height};
-  const bool has_color = outputs.contains("color");
+  return {.width = width, .height = height};
+}
+
+struct PictureOptions {
+  std::unique_ptr<Integrator> integrator{};
+  RenderOptions options{};
+};
+
+/// Returns what is rendered and how, but not which part of the picture.
+PictureOptions options_of(const Prepared& self, const nb::dict& arguments) {
   nb::object name = arguments["integrator"];
   if (name.is_none()) name = nb::cast(self.is_flat ? "flat" : "path");
   const IntegratorOptions integrator_options =
       integrator_of(nb::cast<std::string>(name), arguments);
   const nb::object samples = arguments["spp"], background = arguments["background"];
-  const std::unique_ptr<Integrator> integrator = make_integrator(integrator_options);
-  RenderOptions options{
+  PictureOptions result{.integrator = make_integrator(integrator_options)};
+  result.options = {
       .threads = nb::cast<unsigned>(arguments["threads"]),
-      .integrator = integrator.get(),
+      .integrator = result.integrator.get(),
       .samples = samples.is_none() ? default_samples(integrator_options)
                                    : nb::cast<std::uint32_t>(samples),
       .filter = filter_named(nb::cast<std::string>(arguments["filter"])),
       .seed = nb::cast<std::uint32_t>(arguments["seed"]),
       .environment = environment_from_python(arguments["environment"]),
-      .transparent = has_color && nb::cast<Pixels<float>>(outputs["color"]).shape(2) == 4,
   };
   if (!background.is_none()) {
     const auto c = nb::cast<std::array<double, 3>>(background);
-    options.background = Vec3(DVec3(c[0], c[1], c[2]));
+    result.options.background = Vec3(DVec3(c[0], c[1], c[2]));
   } else if (!self.has_background) {
-    options.background = default_background(SceneFormat::gltf, integrator_options);
+    result.options.background = default_background(SceneFormat::gltf, integrator_options);
   }
+  return result;
+}
+
+/// Returns the exposure, in stops, at which surfaces are neither blown out nor black.
+double exposure_for(const Prepared& self, const nb::object& camera, const nb::dict& arguments) {
+  const PictureOptions picture = options_of(self, arguments);
+  const Camera from = camera_from_python(camera);
+  const ImageSize size = size_of(arguments);
+  const nb::gil_scoped_release release;
+  return automatic_exposure(self.scene, from, size, picture.options);
+}
+
+/// Fills the arrays in `outputs`. outputs["color"], if present, is (height, width, 3 or 4) float32.
+/// Returns the tone map for displaying the colors.
+std::string render_into(const Prepared& self, const nb::object& camera_object,
+                        const nb::dict& outputs, const nb::dict& arguments) {
+  const Camera camera = camera_from_python(camera_object);
+  const ImageSize size = size_of(arguments);
+  const bool has_color = outputs.contains("color");
+  const PictureOptions picture = options_of(self, arguments);
+  RenderOptions options = picture.options;
+  options.transparent = has_color && nb::cast<Pixels<float>>(outputs["color"]).shape(2) == 4;
   if (const nb::object crop = arguments["crop"]; !crop.is_none()) {
     const auto c = nb::cast<std::array<std::uint32_t, 4>>(crop);
     options.crop = PixelRect{.x0 = c[0], .y0 = c[1], .x1 = c[2], .y1 = c[3]};
@@ -263,10 +289,10 @@ nb::object render_into(const Prepared& self, const nb::object& camera_object,
       throw;
     }
   });
-  if (!film) return nb::make_tuple(0.0, "none");
+  if (!film) return "none";
   for (const Target& target : arrays.targets) copy_channel(*film, target);
   if (has_color) copy_colors(*film, nb::cast<Pixels<float>>(outputs["color"]));
-  return nb::make_tuple(film->display.exposure, std::string(name_of(film->display.tone_map)));
+  return std::string(name_of(film->display.tone_map));
 }
 
 /// Makes a film from `color`, (height, width, 3 or 4), and the other arrays. Its colors are to be
@@ -358,6 +384,7 @@ void bind_pictures(nb::module_& module) {
   }
   module.attr("quantities") = nb::tuple(names);
   module.def("render", &render_into);
+  module.def("automatic_exposure", &exposure_for);
   module.def("save", &save);
   module.def("denoiser_name", &denoiser_name);
   module.def("denoise", &denoise);

@@ -76,6 +76,8 @@ void bind_scenes(nb::module_& module) {
       .def("__init__", &prepare, nb::arg("scene"), nb::arg("previous").none(), nb::arg("threads"),
            nb::arg("fast_build"))
       .def_prop_ro("is_flat", [](const Prepared& self) { return self.is_flat; })
+      .def_prop_ro("has_lights",
+                   [](const Prepared& self) { return !self.scene.scene().lights.empty(); })
       .def_prop_ro("size",
                    [](const Prepared& self) {
                      const ImageSize size = self.scene.scene().size;

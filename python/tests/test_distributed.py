@@ -45,6 +45,8 @@ def test_ranges_of_tiles_cover_pictures(size):
     [
         ("gltf/materials.glb", {"size": (83, 47), "spp": 4, "aovs": ["color", "id", "variance"]}),
         ("gltf/materials.glb", {"size": (83, 47), "aovs": ["depth", "uv"]}),
+        ("gltf/materials.glb", {"size": (83, 47), "spp": 1, "exposure": 3}),
+        ("gltf/materials.glb", {"size": (83, 47), "spp": 1, "exposure": "auto"}),
         ("perspective1.json", {}),
     ],
 )

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
+import struct
 import subprocess
 import sys
 import threading
@@ -80,6 +82,41 @@ def test_data_without_color_equals_data_with_color():
     rays_hit = alone.object > 0
     lengths = np.linalg.norm(alone.normal[rays_hit], axis=1)
     assert np.allclose(lengths, 1, atol=1e-6)
+
+
+def with_brighter_lights(source, factor, path):
+    """Writes a copy of a binary glTF asset whose lights have this many times the intensity."""
+    data = source.read_bytes()
+    (length,) = struct.unpack_from("<I", data, 12)
+    document = json.loads(data[20 : 20 + length])
+    for light in document["extensions"]["KHR_lights_punctual"]["lights"]:
+        light["intensity"] = light.get("intensity", 1) * factor
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + length :]
+    head = b"glTF" + struct.pack("<3I", 2, 20 + len(text) + len(rest), len(text)) + b"JSON"
+    path.write_bytes(head + text + rest)
+    return path
+
+
+def test_lights_of_files_are_not_blown_out(program, tmp_path):
+    bright = with_brighter_lights(SCENES / "gltf" / "lamps.glb", 1024, tmp_path / "bright.glb")
+    ours, theirs = tmp_path / "ours.png", tmp_path / "theirs.png"
+    run(program, bright, "--spp", 2, "-o", theirs)
+    scene = mt.load(bright).prepare()
+    picture = mt.render(scene, size=SIZE, spp=2)
+    picture.save(ours)
+    assert ours.read_bytes() == theirs.read_bytes()
+    plain = mt.render(scene, size=SIZE, spp=2, exposure=0)
+    assert np.array_equal(plain.color, picture.color)
+    assert np.median(plain.tonemap()) > 200 > np.median(picture.tonemap())
+    cut = mt.render(scene, size=SIZE, spp=1, exposure="auto", crop=(0, 0, 8, 8))
+    assert cut._exposure == picture._exposure < -1
+    flat = mt.render(scene, size=SIZE, integrator="flat")
+    assert flat._exposure == 0
+    for value, error in ((65, ValueError), (float("nan"), ValueError), ("bright", TypeError)):
+        with pytest.raises(error, match="exposure"):
+            mt.render(scene, size=SIZE, exposure=value)
 
 
 def test_stacks_threads_and_detail():

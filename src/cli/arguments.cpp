@@ -10,6 +10,15 @@
 namespace microtrace::cli {
 namespace {
 
+/// Applies --quality to options that are not given.
+void apply_quality(SamplingOptions& sampling, bool is_path) {
+  if (sampling.quality == nullptr) return;
+  if (!is_path) refuse_usage("--quality needs path tracing; use --integrator path");
+  if (sampling.samples == 0) sampling.samples = sampling.quality->samples;
+  if (sampling.target_error == 0 && !sampling.shard)
+    sampling.target_error = sampling.quality->target_error;
+}
+
 void check_sampling(const SamplingOptions& sampling, bool is_path) {
   if (sampling.needs_passes() && !is_path) {
     refuse_usage(
@@ -64,9 +73,13 @@ void apply_defaults(Arguments& a, SceneFormat format) {
     refuse_usage(
         "--denoise needs path tracing, because other pictures have no noise; use "
         "--integrator path");
+  apply_quality(a.sampling, a.is_path_traced());
   if (a.sampling.samples == 0) a.sampling.samples = default_samples(*a.integrator);
   check_sampling(a.sampling, a.is_path_traced());
   check_shutter(a);
+  if (!a.display.exposure && a.display.automatic == AutomaticExposure::never &&
+      format == SceneFormat::gltf && a.is_path_traced())
+    a.display.automatic = AutomaticExposure::for_lights;
   const std::optional<Vec3> color = default_background(format, *a.integrator);
   if (color && !a.environment.background) a.environment.background = Background{.color = *color};
 }

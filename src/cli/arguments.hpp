@@ -13,11 +13,13 @@
 #include <microtrace/ray.hpp>
 #include <microtrace/render.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -52,14 +54,32 @@ struct EnvironmentOptions {
   }
 };
 
+/// The scenes for which automatic_exposure() determines an exposure that is not given.
+enum class AutomaticExposure { never, for_lights, always };
+
 /// Conversion of light to 8-bit formats. The integrator determines the values that are absent.
 struct DisplayOptions {
   std::optional<double> exposure{};  ///< stops
+  AutomaticExposure automatic = AutomaticExposure::never;
   std::optional<ToneMap> tone_map{};
 };
 
+/// Values of other options under one name.
+struct Quality {
+  std::string_view name;
+  std::uint32_t samples;  ///< per pixel, at most
+  double target_error;    ///< 0 if there is no target
+};
+
+inline constexpr std::array kQualities{
+    Quality{.name = "draft", .samples = 16, .target_error = 0},
+    Quality{.name = "good", .samples = 256, .target_error = 0.03},
+    Quality{.name = "final", .samples = 4096, .target_error = 0.01},
+};
+
 struct SamplingOptions {
-  std::uint32_t samples = 0;  ///< samples per pixel; 0 until apply_defaults()
+  std::uint32_t samples = 0;         ///< samples per pixel; 0 until apply_defaults()
+  const Quality* quality = nullptr;  ///< null without --quality
   PixelFilter filter = PixelFilter::box;
   std::uint32_t seed = 0;
   double target_error = 0;                                      ///< 0 if there is no target

@@ -1,6 +1,7 @@
 #include "cli/compare.hpp"
 
 #include "base/printable.hpp"
+#include "cli/pictures/exposure.hpp"
 
 #include <microtrace/compare.hpp>
 #include <microtrace/error.hpp>
@@ -68,6 +69,7 @@ std::string text_of(const PictureDifference& d, double threshold) {
 
 int compare_files(const Arguments& arguments) {
   const CompareArguments& options = arguments.compare;
+  refuse_automatic_exposure(arguments.display, "compare");
   if (options.pictures.size() != 2) refuse_usage("compare needs two pictures");
   const ReadFiles inputs;
   MemoryBudget memory(arguments.memory_limit.value_or(default_memory_limit()));

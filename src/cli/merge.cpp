@@ -3,6 +3,7 @@
 #include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "cli/pictures/environment.hpp"
+#include "cli/pictures/exposure.hpp"
 #include "cli/pictures/output_paths.hpp"
 #include "cli/pictures/sample_files.hpp"
 #include "cli/pictures/sequence.hpp"
@@ -101,13 +102,14 @@ void merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   if (!arguments.quiet) {
     report_written({.main = picture.empty() ? merged : picture, .sidecar = {}},
-                   all.sums.window.size(), all.sums.count(), seconds.count());
+                   all.sums.window.size(), all.sums.count(), arguments.display, seconds.count());
   }
 }
 
 }  // namespace
 
 void merge_samples(const Arguments& arguments) {
+  refuse_automatic_exposure(arguments.display, "merge");
   if (arguments.output.empty() && arguments.sampling.checkpoint.empty())
     throw Error(ErrorKind::usage, "", "merge needs --output or --checkpoint");
   const Sequence sequence(arguments);

@@ -11,6 +11,7 @@
 #include "cli/options/parse.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
+#include "cli/pictures/exposure.hpp"
 #include "cli/pictures/output_paths.hpp"
 #include "cli/pictures/render_picture.hpp"
 #include "cli/pictures/sequence.hpp"
@@ -70,8 +71,11 @@ int render_pictures(cli::Arguments arguments) {
   for (std::uint32_t index = 0; index < sequence.count(); ++index) {
     LoadedScene loaded = file.at(sequence.time(index));
     Scene& scene = loaded.scene;
-    if (index == 0)
+    if (index == 0) {
       environment = cli::load_environment(arguments.environment, loaded.warnings, memory);
+      if (arguments.frames && !arguments.validate)
+        arguments.display = cli::with_exposure_of_frames(file, arguments, environment, framing);
+    }
     log.report(loaded.warnings);
     cli::apply_environment(scene, environment, arguments.environment);
     const ImageSize size = arguments.size.value_or(scene.size);

@@ -5,9 +5,11 @@ pictures.
 usage: light_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
 
+import base64
 import json
 import os
 import re
+import struct
 import subprocess
 import sys
 import unittest
@@ -120,6 +122,84 @@ class Exposure(ProgramTest):
                 self.assertEqual(result.returncode, 2)
                 self.assertIn(option.encode(), result.stderr)
         self.assertEqual(os.listdir(self.folder), [])
+
+
+class AutomaticExposure(ProgramTest):
+    """Tests --exposure auto, the default for path-traced glTF assets with lights."""
+
+    def lit(self, intensity, animated=False):
+        """Writes an asset: a white square of two units that a light of this intensity in lux lights from in front. An
+        animation turns the light away in the first second."""
+        corners = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
+        data = corners + struct.pack("<2f", 0, 1) + struct.pack("<8f", 0, 0, 0, 1, 0, 1, 0, 0)
+        views = [(0, 48), (48, 12), (60, 8), (68, 32)]
+        kinds = [(5126, 4, "VEC3"), (5123, 6, "SCALAR"), (5126, 2, "SCALAR"), (5126, 2, "VEC4")]
+        document = {
+            "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": intensity}]}},
+            "scenes": [{"nodes": [0, 1, 2]}], "scene": 0,
+            "nodes": [{"mesh": 0}, {"extensions": {"KHR_lights_punctual": {"light": 0}}}, {"camera": 0, "translation": [0, 0, 1]}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0}}],
+            "buffers": [{"uri": "data:;base64," + base64.b64encode(data).decode(), "byteLength": len(data)}],
+            "bufferViews": [{"buffer": 0, "byteOffset": start, "byteLength": size} for start, size in views],
+            "accessors": [{"bufferView": k, "componentType": kind, "count": count, "type": name}
+                          for k, (kind, count, name) in enumerate(kinds)]}
+        document["accessors"][0].update(min=[-1, -1, 0], max=[1, 1, 0])
+        document["accessors"][2].update(min=[0], max=[1])
+        if animated:
+            document["animations"] = [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}],
+                                       "samplers": [{"input": 2, "output": 3}]}]
+        (self.folder / "lit.gltf").write_text(json.dumps(document))
+
+    def center(self, *options):
+        """Returns the least and the greatest shown value of the pixel in the middle, and the line about the file."""
+        result = self.run_program("lit.gltf", "--size", "41x31", "--spp", "4", "--tonemap", "none", "-o", "out.ppm",
+                                  *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        pixel = (self.folder / "out.ppm").read_bytes()[-41 * 31 * 3:][(41 * 15 + 20) * 3:][:3]
+        return min(pixel), max(pixel), result.stderr.decode()
+
+    def test_lights_of_files_are_not_blown_out(self):
+        for intensity, blown in ((3, False), (3e3, True), (1e5, True)):
+            self.lit(intensity)
+            low, high, text = self.center()
+            self.assertTrue(99 <= low and high < 255, (intensity, low, high))
+            self.assertEqual("exposure -" in text, blown, text)
+            self.assertEqual(self.center("--exposure", "auto")[:2], (low, high))
+            self.assertEqual(self.center("--exposure", "0")[0] == 255, blown)
+        self.lit(1e-3)
+        self.assertIn(self.center()[0], range(97, 104))
+
+    def test_scaled_lights_give_the_same_picture(self):
+        pictures = set()
+        for intensity in (2.0 ** 12, 2.0 ** 17, 2.0 ** 20):
+            self.lit(intensity)
+            self.center()
+            pictures.add((self.folder / "out.ppm").read_bytes())
+        self.assertEqual(len(pictures), 1)
+
+    def test_frames_share_an_exposure(self):
+        self.lit(1e4, animated=True)
+        result = self.run_program("lit.gltf", "--size", "16x12", "--spp", "4", "--frames", "0:2", "--fps", "4",
+                                  "-o", "f%d.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        stops = re.findall(rb"exposure (-[0-9.]+),", result.stderr)
+        self.assertEqual(len(stops), 3, result.stderr)
+        self.assertEqual(len(set(stops)), 1)
+
+    def test_other_pictures_keep_their_brightness(self):
+        self.lit(1e5)
+        self.assertEqual(self.center("--integrator", "flat")[2].count("exposure"), 0)
+        self.assertEqual(self.center("--integrator", "flat", "--exposure", "auto")[2].count("exposure"), 0)
+        self.assertNotIn("exposure", self.run_program(CUBE, "--size", "8x6", "-o", "cube.ppm").stderr.decode())
+
+    def test_commands_without_it(self):
+        for command in (("merge", "a", "-o", "b.png"), ("compare", "a.png", "b.png"), ("dataset", CUBE, "-o", "d")):
+            result = self.run_program(*command, "--exposure", "auto")
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(f"--exposure: {command[0]} doesn't support auto".encode(), result.stderr)
 
 
 class DarkPictures(ProgramTest):

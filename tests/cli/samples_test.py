@@ -41,6 +41,26 @@ class Samples(ProgramTest):
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[0], pictures[2])
 
+    def test_qualities_name_samples_and_errors(self):
+        for quality, options in ((["draft"], ["--spp", "16"]),
+                                 (["good", "--spp", "40"], ["--spp", "40", "--target-error", "0.03"]),
+                                 (["good", "--target-error", "0.5"], ["--spp", "256", "--target-error", "0.5"]),
+                                 (["final", "--spp", "40"], ["--spp", "40", "--target-error", "0.01"])):
+            self.assertEqual(self.whole("--quality", *quality), self.whole(*options), quality)
+        self.assertIn("256 samples each", self.render("--quality", "good", "-o", "a.ppm"))
+        self.render("--quality", "good", "--spp", "4", "--shard", "1/2", "--checkpoint", "a")
+        self.render("--quality", "good", "--spp", "4", "--shard", "2/2", "--checkpoint", "b")
+        self.run_program("merge", "a", "b", "-o", "merged.ppm")
+        self.assertEqual(self.bytes_of("merged.ppm"), self.whole("--spp", "4"))
+
+    def test_refused_qualities(self):
+        for name in ("best", "Good"):
+            self.assertIn("draft, good or final", self.render("-o", "a.ppm", "--quality", name, code=2))
+        result = self.run_program(SCENE, "--integrator", "flat", "--quality", "good", "-o", "a.ppm")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(b"--quality needs path tracing; use --integrator path", result.stderr)
+        self.assertFalse((self.folder / "a.ppm").exists())
+
     def test_rendering_continues_from_checkpoints(self):
         whole = self.whole("--spp", "37")
         self.render("-o", "a.ppm", "--spp", "5", "--checkpoint", "c")

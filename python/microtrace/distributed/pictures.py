@@ -99,14 +99,17 @@ def render_tiles(job: Job, first: int, last: int) -> Outcome:
         pictures: _Pictures = made_from(job.digest, _unchanged)
         scene: PreparedScene = made_from(pictures.scene, _prepare)
         watch = Stopwatch()
-        arrays, display = [], (0.0, "none")
+        arrays, displays = [], []
         for index, rect in parts_of(first, last, *pictures.size):
+            options = dict(pictures.options)
+            if (index, rect[:2]) != (0, (0, 0)):
+                options["exposure"] = 0.0  # the first part's exposure is that of all pictures
             picture = render_here(
-                scene, pictures.cameras[index], pictures.size, crop=rect, **pictures.options
+                scene, pictures.cameras[index], pictures.size, crop=rect, **options
             )
-            display = (picture._exposure, picture._tone_map)
+            displays.append((picture._exposure, picture._tone_map))
             arrays.append(dict(picture))
-        return watch.seconds(), (arrays, display)
+        return watch.seconds(), (arrays, displays[0])
 
     return attempt(job, work)
 
@@ -127,6 +130,7 @@ def render(
     seed: int = 0,
     max_depth: int = 32,
     denoise: bool = False,
+    exposure: float | Literal["auto"] | None = None,
     threads: int = 1,
     retries: int = 3,
     progress: Callable[[float], bool | None] | bool = False,
@@ -144,6 +148,7 @@ def render(
         camera, size, spp, aovs: see microtrace.render().
         integrator, environment, background, transparent: see microtrace.render().
         filter, seed, max_depth: see microtrace.render().
+        exposure: see microtrace.render().
         denoise: see microtrace.render(). The client denoises the finished pictures.
         threads: number of threads of each task; 0 means all processors of the worker's machine.
         retries: how often a part of a picture is rendered again after errors that another worker
@@ -182,6 +187,7 @@ def render(
         "filter": filter,
         "seed": seed,
         "max_depth": max_depth,
+        "exposure": exposure,
         "threads": threads,
     }
     arrays: dict[str, Any] = {}
@@ -195,7 +201,9 @@ def render(
 
     def receive(first: int, last: int, value: Any) -> None:
         nonlocal display
-        rendered, display = value
+        rendered, shown = value
+        if first == 0:
+            display = shown
         parts = parts_of(first, last, width, height)
         for (index, (x0, y0, x1, y1)), part in zip(parts, rendered):
             for name, array in part.items():

@@ -1,6 +1,7 @@
 #include "cli/dataset/dataset.hpp"
 
 #include "cli/dataset/plan.hpp"
+#include "cli/pictures/exposure.hpp"
 #include "cli/pictures/render_picture.hpp"
 
 #include <microtrace/dataset.hpp>
@@ -62,6 +63,7 @@ Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
                  const Locate& locate)
     : arguments_(arguments), warnings_(arguments, warnings) {
   if (arguments.scene == "-") refuse_usage("SCENE: a data set needs a file, not standard input");
+  refuse_automatic_exposure(arguments_.display, "dataset");
   const ReadDigest digest;
   views_ = views_of(arguments_);
   for (DatasetView& view : views_) {

@@ -55,6 +55,12 @@ constexpr std::array kLightOptions{
 };
 static_assert(is_complete(kLightOptions));
 
+void set_exposure(Arguments& a, const OptionValue& value) {
+  const bool is_automatic = value.text == "auto";
+  a.display.automatic = is_automatic ? AutomaticExposure::always : AutomaticExposure::never;
+  a.display.exposure = is_automatic ? std::nullopt : std::optional(value.number(-64, 64));
+}
+
 constexpr std::array kDisplayOptions{
     Option{.names = "--denoise",
            .help = "remove the noise of a path-traced picture by the library Open Image Denoise, "
@@ -63,11 +69,14 @@ constexpr std::array kDisplayOptions{
            .set = [](Arguments& a, const OptionValue&) { a.denoises = true; }},
     Option{.names = "--exposure",
            .metavar = "EV",
-           .help = "exposure of 8-bit pictures in stops, -64 to 64: radiance is multiplied by 2^EV",
-           .default_value = "0; for merge, that of the first samples",
+           .help = "exposure of 8-bit pictures in stops, -64 to 64: radiance is multiplied by "
+                   "2^EV; auto: the exposure nearest to 0 at which surfaces are neither blown out "
+                   "nor black",
+           .default_value = "auto for path-traced glTF assets with lights, else 0; for merge, that "
+                            "of the first samples",
            .samples = Samples::keep,
-           .set = [](Arguments& a,
-                     const OptionValue& value) { a.display.exposure = value.number(-64, 64); }},
+           .words = [] { return std::vector<std::string>{"auto"}; },
+           .set = set_exposure},
     Option{.names = "--tonemap",
            .metavar = "NAME",
            .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",

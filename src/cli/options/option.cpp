@@ -74,7 +74,7 @@ std::vector<OptionGroup> option_groups(Command command) {
             {"Display", rows(display_options(), "--denoise", "--tonemap")},
             {"glTF assets", rows(asset_options(), "--time", "--animation")},
             {"glTF assets", rows(asset_options(), "--variant", "--allow-path")},
-            {"Long renderings", rows(checkpoint_options(), "--target-error", "--time-limit")},
+            {"Long renderings", rows(checkpoint_options(), "--quality", "--time-limit")},
             {"Running", rows(running_options(), "--threads", "--memory-limit")},
             {"Messages and help", common_options()}};
   }

@@ -21,13 +21,13 @@ std::optional<Number> read(std::string_view text) {
   return value;
 }
 
+}  // namespace
+
 std::string shortest(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", number);
   return text;
 }
-
-}  // namespace
 
 std::optional<std::uint32_t> whole_number(std::string_view text) {
   return read<std::uint32_t>(text);

@@ -67,6 +67,9 @@ struct OptionValue {
   [[noreturn]] void refuse(const std::string& accepted) const;
 };
 
+/// Returns the number as text with at most six digits.
+[[nodiscard]] std::string shortest(double number);
+
 /// Throws Error (usage) with this message.
 [[noreturn]] void refuse_usage(const std::string& message);
 

@@ -1,9 +1,12 @@
 #include "cli/arguments.hpp"
 #include "cli/options/option.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace microtrace::cli {
 namespace {
@@ -12,6 +15,16 @@ constexpr std::array kFilters{Choice<PixelFilter>{"box", PixelFilter::box},
                               Choice<PixelFilter>{"blackman-harris", PixelFilter::blackman_harris}};
 constexpr std::array kBackfaces{Choice<Backfaces>{"pass", Backfaces::pass},
                                 Choice<Backfaces>{"occlude", Backfaces::occlude}};
+
+std::vector<std::string> quality_names() {
+  return names_of(kQualities);
+}
+
+const Quality* parse_quality(const OptionValue& value) {
+  const auto* found = std::ranges::find(kQualities, value.text, &Quality::name);
+  if (found == kQualities.end()) value.refuse(listed(quality_names()));
+  return found;
+}
 
 constexpr std::array kSamplingOptions{
     Option{.names = "--integrator",
@@ -76,6 +89,15 @@ constexpr std::array kSamplingOptions{
 static_assert(is_complete(kSamplingOptions));
 
 constexpr std::array kCheckpointOptions{
+    Option{.names = "--quality",
+           .metavar = "NAME",
+           .help = "quality of a path-traced picture: draft (--spp 16), good (--spp 256 "
+                   "--target-error 0.03) or final (--spp 4096 --target-error 0.01); shards take "
+                   "only the samples; --spp and --target-error replace its values",
+           .samples = Samples::change,
+           .words = quality_names,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.sampling.quality = parse_quality(value); }},
     Option{
         .names = "--target-error",
         .metavar = "E",

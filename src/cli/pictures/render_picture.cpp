@@ -3,6 +3,7 @@
 #include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "cli/pictures/environment.hpp"
+#include "cli/pictures/exposure.hpp"
 #include "cli/pictures/output_paths.hpp"
 #include "cli/report/progress_bar.hpp"
 #include "cli/report/scene_summary.hpp"
@@ -66,6 +67,19 @@ std::function<bool(double)> shown_by(const std::function<void(double)>& progress
     if (progress) progress(share);
     return DelayedSignals::received() == 0;
   };
+}
+
+/// Returns the passes of the options; nothing if they don't need passes.
+std::optional<Passes> passes_of(const SamplingOptions& sampling, const Integrator& integrator,
+                                const DisplayOptions& display, const PictureFiles& files) {
+  if (files.samples != nullptr) {
+    Film shown({.width = 1, .height = 1});
+    shown.display = integrator.display(shown);
+    apply_display(shown, display);
+    return files.samples->passes(shown.display);
+  }
+  if (!sampling.needs_passes()) return std::nullopt;
+  return Passes{.target_error = sampling.target_error, .time_limit = sampling.time_limit};
 }
 
 /// Shows the picture after passes if it is rendered in passes.
@@ -158,21 +172,9 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
       .sampled_aovs = arguments.aovs.sampled,
       .transparent = arguments.environment.is_transparent(),
   };
-  if (files.samples != nullptr) {
-    Film shown({.width = 1, .height = 1});
-    shown.display = integrator->display(shown);
-    apply_display(shown, arguments.display);
-    options.passes = files.samples->passes(shown.display);
-  } else if (arguments.sampling.needs_passes()) {
-    options.passes = Passes{.target_error = arguments.sampling.target_error,
-                            .time_limit = arguments.sampling.time_limit};
-  }
   // Merging the shards denoises the picture.
   if (arguments.denoises && arguments.sampling.shard) add_denoise_features(options);
   if (needs_ids_for_sidecar_only(arguments, files)) options.aovs.push_back(Aov::id);
-  const std::string shown_name =
-      (arguments.sampling.shard || files.picture == "-" ? arguments.scene : files.picture.string());
-  if (files.viewer != nullptr) show_passes(options, *files.viewer, shown_name);
   const auto start = std::chrono::steady_clock::now();
   // SceneFile no longer counts the memory of this scene once it makes the shutter's scenes.
   MemoryAccount still(options.memory);
@@ -184,11 +186,16 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
                                                   .max_cost_growth = max_cost_growth});
   const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
   tables = prepared.tables();
+  const DisplayOptions display = with_exposure(arguments.display, prepared, camera, size, options);
+  options.passes = passes_of(arguments.sampling, *integrator, display, files);
+  const std::string shown_name =
+      (arguments.sampling.shard || files.picture == "-" ? arguments.scene : files.picture.string());
+  if (files.viewer != nullptr) show_passes(options, *files.viewer, shown_name);
   Film film = render_and_save(prepared, camera, size, options, arguments, files);
   if (files.viewer != nullptr) files.viewer->show(shown_name, film);
   times.build += build.count();
   watch.rendered(times);
-  apply_display(film, arguments.display);
+  apply_display(film, display);
   if (counts.invalid_samples > 0 && !arguments.quiet) {
     std::fprintf(stderr, "warning: %llu samples were not numbers (NaN) and count as black\n",
                  static_cast<unsigned long long>(counts.invalid_samples));
@@ -212,7 +219,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   if (reports_files(arguments)) {
     report_written({.main = arguments.sampling.shard ? files.samples->checkpoint() : files.picture,
                     .sidecar = files.sidecar},
-                   film.size(), counts.samples_per_pixel, watch.seconds());
+                   film.size(), counts.samples_per_pixel, display, watch.seconds());
   }
   watch.report(arguments.statistics, drawn, film.size(), counts, options.threads, *options.memory);
 }

@@ -1,6 +1,7 @@
 #include "cli/report/written_files.hpp"
 
 #include "base/printable.hpp"
+#include "cli/options/option_value.hpp"
 
 #include <cstdio>
 #include <string>
@@ -8,16 +9,19 @@
 namespace microtrace::cli {
 
 void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t samples,
-                    double seconds) {
+                    const DisplayOptions& display, double seconds) {
   std::string names;
   for (const std::filesystem::path& file : {files.main, files.sidecar}) {
     if (file.empty() || file == "-") continue;
     names.append(names.empty() ? "" : " and ").append(printable(file.string()));
   }
   if (names.empty()) return;
-  std::fprintf(stderr, "wrote %s: %u x %u pixels, %u sample%s each, in %.*f s\n", names.c_str(),
-               size.width, size.height, samples, samples == 1 ? "" : "s", seconds < 1 ? 3 : 1,
-               seconds);
+  std::string exposure;
+  if (display.automatic != AutomaticExposure::never && display.exposure.value_or(0) != 0)
+    exposure = " exposure " + shortest(*display.exposure) + ",";
+  std::fprintf(stderr, "wrote %s: %u x %u pixels, %u sample%s each,%s in %.*f s\n", names.c_str(),
+               size.width, size.height, samples, samples == 1 ? "" : "s", exposure.c_str(),
+               seconds < 1 ? 3 : 1, seconds);
 }
 
 }  // namespace microtrace::cli

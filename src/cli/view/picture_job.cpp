@@ -3,6 +3,7 @@
 #include "cli/options/parse.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
+#include "cli/pictures/exposure.hpp"
 
 #include <microtrace/defaults.hpp>
 #include <microtrace/threads.hpp>
@@ -63,6 +64,7 @@ PictureJob make_job(SceneSource& source, Arguments arguments) {
     job.options.passes =
         Passes{.target_error = a.sampling.target_error, .time_limit = a.sampling.time_limit};
   }
+  a.display = with_exposure(a.display, job.scene->prepared, job.camera, job.size, job.options);
   if (a.denoises) job.denoiser.emplace();
   Film shown({.width = 1, .height = 1});
   shown.display = job.integrator->display(shown);

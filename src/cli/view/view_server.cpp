@@ -3,6 +3,7 @@
 #include "base/printable.hpp"
 #include "cli/options/option_value.hpp"
 #include "cli/view/page.hpp"
+#include "cli/view/picture_job.hpp"
 #include "cli/view/picture_json.hpp"
 #include "cli/view/saved_picture.hpp"
 
@@ -185,13 +186,30 @@ void ViewServer::open_picture(const io::HttpRequest& request, const io::HttpRepl
   reply(json_response("{\"id\":\"" + id + "\"}"));
 }
 
+std::vector<std::string> ViewServer::first_words(SceneSource& source) const {
+  std::vector<std::string> words = arguments_.view.words;
+  if (arguments_.display.exposure) return words;
+  std::string lines;
+  for (const std::string& word : words) lines.append(word).append("\n");
+  try {
+    const PictureJob job = make_job(source, parse_picture(arguments_, lines));
+    if (!job.arguments.display.exposure) return words;
+    const auto given = std::ranges::find(words, "--exposure");
+    if (given != words.end()) words.erase(given, given + 2);
+    words.insert(words.end(), {"--exposure", shortest(*job.arguments.display.exposure)});
+  } catch (const Error&) {
+    return words;  // the page shows the error when it asks for the picture
+  }
+  return words;
+}
+
 void ViewServer::describe_scene(const io::HttpRequest& request, const io::HttpReply& reply) {
   run_errand(reply, [this, request] {
     SceneSource& source = source_of(Query(request.query));
     const std::uint64_t revision = source.revision();
     const auto scene = source.get(parse_picture(arguments_, request.body).load);
     return json_response(scene_json({.name = source.name(),
-                                     .words = arguments_.view.words,
+                                     .words = first_words(source),
                                      .revision = revision,
                                      .scenes = sources_.size()},
                                     *scene));

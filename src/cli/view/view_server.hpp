@@ -56,6 +56,9 @@ class ViewServer {
   void open_picture(const io::HttpRequest& request, const io::HttpReply& reply);
   /// Returns the scene that the parameter `scene` selects. Throws Error (usage).
   [[nodiscard]] SceneSource& source_of(const Query& query);
+  /// Returns the words of the program's command line. A number replaces an automatic exposure, so
+  /// that the exposure stays the same while the view turns.
+  [[nodiscard]] std::vector<std::string> first_words(SceneSource& source) const;
   void describe_scene(const io::HttpRequest& request, const io::HttpReply& reply);
   void save_picture(const io::HttpRequest& request, const io::HttpReply& reply);
   /// Calls work() on another thread and replies with its result, or with its error.

@@ -52,7 +52,7 @@ function showNumber(control) {
   if (control.type === "range" && text !== null) text.textContent = control.value;
 }
 
-/** Shows the options in the controls with the attribute data-option. */
+/** Shows the options in the controls with the attribute data-option. Zero is a value of its own if data-explicit is set. */
 export function showOptions(options) {
   for (const control of controls()) {
     const value = options.get(control.dataset.option);
@@ -69,7 +69,8 @@ export function onChange(change) {
     const report = (isFinal) => {
       showNumber(control);
       const isRange = control.type === "range", isBox = control.type === "checkbox";
-      const isDefault = (isRange && Number(control.value) === 0) || (isBox && !control.checked);
+      const isZero = isRange && Number(control.value) === 0 && control.dataset.explicit === undefined;
+      const isDefault = isZero || (isBox && !control.checked);
       change(control.dataset.option, isDefault ? "" : isBox ? null : control.value.trim(), isFinal);
     };
     control.addEventListener("change", () => report(true));
