@@ -9,11 +9,11 @@
 namespace microtrace {
 
 /// Returns the exposure in stops (Display::exposure) that is nearest to 0 and at which the visible
-/// surfaces are neither blown out nor black: their 95th percentile is between 1/8 and 1. Measures
-/// the brightest channel of each pixel in a small picture of the scene, weighted with coverage. The
-/// result is a multiple of 1/10 and 0 if no surface is lit. It depends on the scene, the camera,
-/// the shape of the picture and the integrator, environment and background in `options`, not on
-/// samples, seed or crop.
+/// lit surfaces are neither blown out nor black: their 95th percentile is between 1/8 and 1.
+/// Measures the brightest channel of each pixel in a small picture of the scene, weighted with
+/// coverage. The result is a multiple of 1/10 and 0 if no surface is lit. It depends on the scene,
+/// the camera, the shape of the picture and the integrator, environment and background in
+/// `options`, not on samples, seed or crop.
 ///
 /// Throws the errors of render().
 [[nodiscard]] MICROTRACE_EXPORT double automatic_exposure(const PreparedScene& scene,

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace microtrace {
 
@@ -19,10 +20,22 @@ enum class Backfaces {
   occlude,  ///< paths are blocked, so one-sided walls block sunlight that comes from behind them
 };
 
+/// A horizontal plane that shows only shadows: a shadow catcher. Camera rays meet it from above
+/// where they meet no surface. There, the picture is black with the occluded fraction of the
+/// ground's light as alpha, or the environment is darkened by this fraction if it is the
+/// background. The light is that of the environment and the punctual lights; emissive surfaces cast
+/// no light on the ground. The ground has no other effect on the scene.
+struct Ground {
+  /// The y coordinate in world space. Nothing: that of the lowest point of all bounded shapes;
+  /// there is no ground if there are none.
+  std::optional<double> height;
+};
+
 struct PathOptions {
   /// The maximum path length: 1 is emission only, 2 adds direct light. At least 1.
   std::uint32_t max_depth = 32;
   Backfaces backfaces = Backfaces::pass;
+  std::optional<Ground> ground{};
 };
 
 /// Path tracing (J. Kajiya, The rendering equation, 1986) with the scene's lights, its environment,

@@ -206,6 +206,7 @@ def render(
     filter: Literal["box", "blackman-harris"] = "box",
     seed: int = 0,
     max_depth: int = 32,
+    ground: bool | float = False,
     crop: tuple[int, int, int, int] | None = None,
     denoise: bool = False,
     exposure: float | Literal["auto"] | None = None,
@@ -231,6 +232,9 @@ def render(
         filter: the pixel filter.
         seed: random seed. Different seeds give different noise.
         max_depth: maximum path length. 1 shows only emission; 2 adds direct light.
+        ground: adds a horizontal ground that shows only shadows, so a path-traced model doesn't
+            seem to float: at this y or, if True, at the lowest point of the scene. With
+            transparent=True, shadows are black with alpha.
         crop: (x0, y0, x1, y1): renders only the pixels with x0 <= x < x1 and y0 <= y < y1 of the
             picture. They equal those of the whole picture. Arrays have the size of this part.
         denoise: removes the noise of path-traced colors by the library Open Image Denoise, which
@@ -289,6 +293,7 @@ def render(
         "filter": filter,
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
         "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
+        "ground": _ground_arguments(ground, method),
         "crop": crop,
         "shutter": None if shutter is None else _shutter_arguments(shutter),
         "threads": as_threads(threads),
@@ -309,6 +314,15 @@ def render(
             array = array[..., 0]
         arrays[name] = array if is_stack else array[0]
     return Picture(arrays, stops, tone_map, denoiser)
+
+
+def _ground_arguments(ground: bool | float, integrator: str) -> dict[str, float | None] | None:
+    """Returns the core's description of the ground: None, or its height, which may be None."""
+    if ground is False:
+        return None
+    if integrator != "path":
+        raise ValueError('a ground shows shadows, which need integrator="path"')
+    return {"height": None if ground is True else as_real(ground, "ground", -3e38, 3e38)}
 
 
 def _exposure(

@@ -133,6 +133,8 @@ IntegratorOptions integrator_of(const std::string& name, const nb::dict& argumen
   if (name != "path") throw nb::value_error("integrator must be \"path\" or \"flat\"");
   PathOptions options;
   options.max_depth = nb::cast<std::uint32_t>(arguments["max_depth"]);
+  if (const nb::object ground = arguments["ground"]; !ground.is_none())
+    options.ground = Ground{.height = nb::cast<std::optional<double>>(ground["height"])};
   return options;
 }
 

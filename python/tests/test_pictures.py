@@ -119,6 +119,27 @@ def test_lights_of_files_are_not_blown_out(program, tmp_path):
             mt.render(scene, size=SIZE, exposure=value)
 
 
+def test_ground(program, tmp_path):
+    ours, theirs = tmp_path / "ours.png", tmp_path / "theirs.png"
+    scene = mt.load(KNOT).prepare()
+    arguments = {"size": SIZE, "spp": 4, "transparent": True}
+    plain = mt.render(scene, **arguments)
+    for ground, option in ((True, "--ground"), (-2, "--ground=-2")):
+        options = ("--spp", 4, "--background", "transparent")
+        run(program, KNOT, *options, option, "-o", theirs)
+        picture = mt.render(scene, ground=ground, **arguments)
+        picture.save(ours)
+        assert ours.read_bytes() == theirs.read_bytes()
+        assert (picture.color[..., 3] >= plain.color[..., 3]).all()
+        assert np.array_equal(picture.color[..., :3], plain.color[..., :3])
+        assert (picture.color[..., 3] > plain.color[..., 3]).sum() > 100
+    for value, error in (("low", TypeError), (float("nan"), ValueError), (1e39, ValueError)):
+        with pytest.raises(error, match="ground"):
+            mt.render(scene, ground=value)
+    with pytest.raises(ValueError, match="integrator"):
+        mt.render(scene, ground=True, integrator="flat")
+
+
 def test_stacks_threads_and_detail():
     prepared = mt.load(KNOT).prepare()
     cameras = [mt.frame(prepared, azimuth=90 * k, size=SIZE) for k in range(3)]

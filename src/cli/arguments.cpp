@@ -69,6 +69,8 @@ void apply_defaults(Arguments& a, SceneFormat format) {
     refuse_usage("--aov: " + std::string(name_of(a.aovs.sampled.front())) +
                  " needs path tracing; use --integrator path");
   }
+  if (a.path.ground && !a.is_path_traced())
+    refuse_usage("--ground needs path tracing, which casts shadows; use --integrator path");
   if (a.denoises && !a.is_path_traced())
     refuse_usage(
         "--denoise needs path tracing, because other pictures have no noise; use "

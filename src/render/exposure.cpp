@@ -30,16 +30,17 @@ ImageSize small(ImageSize size) {
   return {.width = scaled(size.width), .height = scaled(size.height)};
 }
 
-/// Returns the percentile of the brightest channel over the surfaces that the film shows.
+/// Returns the percentile of the brightest channel over the lit surfaces that the film shows.
 double percentile_of(Film& film) {
   std::vector<std::pair<float, float>> values;  // with weights
   double total = 0;
   for (std::uint32_t y = 0; y < film.size().height; ++y) {
     for (std::uint32_t x = 0; x < film.size().width; ++x) {
       const float alpha = film.alpha_at(x, y);
-      if (alpha <= 0) continue;
       const Vec3 color = film.at(x, y);
-      values.emplace_back(std::max({color.x, color.y, color.z}) / alpha, alpha);
+      const float brightest = std::max({color.x, color.y, color.z});
+      if (alpha <= 0 || brightest <= 0) continue;  // black pixels may be shadows on the ground
+      values.emplace_back(brightest / alpha, alpha);
       total += alpha;
     }
   }

@@ -62,12 +62,14 @@ FilmView view_of(const Film& film, const Scene& scene, const Camera& camera,
                          options.integrator != nullptr && options.integrator->is_random();
   FilmView view;
   std::size_t lit = 0, black = 0;
-  std::vector<std::size_t> doubtful;  // pixels that have the background's color
+  std::vector<std::size_t> doubtful;  // pixels that may show no surface
   for (std::uint32_t y = 0; y < film.size().height; ++y) {
     const std::span<const Vec3> colors = film.row(y);
     for (std::size_t x = 0; x < colors.size(); ++x) {
       if (film.has_alpha() && film.alpha_row(y)[x] == 0) continue;
-      if (!film.has_alpha() && !shows_all && colors[x] == scene.background) {
+      const bool may_be_empty = film.has_alpha() ? colors[x] == Vec3(0)  // may be a shadow
+                                                 : !shows_all && colors[x] == scene.background;
+      if (may_be_empty) {
         doubtful.push_back(std::size_t{y} * colors.size() + x);
       } else if (is_black(colors[x])) {
         ++black;
@@ -77,7 +79,7 @@ FilmView view_of(const Film& film, const Scene& scene, const Camera& camera,
       }
     }
   }
-  const bool are_black = is_black(scene.background);
+  const bool are_black = film.has_alpha() || is_black(scene.background);
   if (lit + black == 0 || (are_black && is_most(black + doubtful.size(), lit))) {
     const std::vector<bool> is_there =
         doubtful.empty() ? std::vector<bool>() : occupied(scene, camera, film.whole, options);

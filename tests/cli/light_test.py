@@ -63,6 +63,21 @@ class Environments(ProgramTest):
         self.assertEqual(corner("--background", "env"), corner("--background", "env", "--env", "studio"))
         self.assertNotEqual(corner("--background", "env"), corner("--background", "env", "--env-intensity", "0.5"))
 
+    def test_ground(self):
+        def picture(*options):
+            return self.picture(CUBE, "--size", "40x30", "--integrator", "path", "--spp", 4, "--background", "#ffffff", *options)
+
+        plain, ground = picture(), picture("--ground")
+        self.assertNotEqual(plain, ground)
+        self.assertLess(sum(map(sum, ground[2])), sum(map(sum, plain[2])))
+        self.assertEqual(ground, picture("--ground=lowest"))
+        self.assertEqual(plain, picture("--ground=1e30"))  # above the camera
+        self.assertNotEqual(ground, picture("--ground=-30"))
+        for height in ("high", "nan", "inf", "1e400"):
+            self.assert_refused(2, "--ground", "--ground=" + height)
+        for integrator in ("flat", "normal"):
+            self.assert_refused(2, "--integrator path", "--ground", "--integrator", integrator)
+
     def test_files(self):
         self.assert_refused(5, "missing.exr", "--env", "missing.exr")
         self.assert_refused(5, "1,2,x", "--env", "1,2,x")

@@ -23,7 +23,7 @@ CONTEXT = {"--fov": ["--view", "front"], "--up": ["--eye", "0,0,30"], "--apertur
 SAMPLES_DEPEND = {
     "--size": "12x16", "--crop": "0,0,8,8", "--background": "transparent", "--camera": "0", "--view": "top", "--eye": "0,0,30",
     "--filter": "blackman-harris", "--seed": "1", "--max-depth": "1", "--backfaces": "occlude",
-    "--env": "#ff8000", "--env-rotation": "90", "--env-intensity": "0.5", "--target-error": "0.5", "--quality": "draft", "--time": "1", "--shutter": "0:0.1", "--variant": "0"}
+    "--env": "#ff8000", "--env-rotation": "90", "--env-intensity": "0.5", "--ground": None, "--target-error": "0.5", "--quality": "draft", "--time": "1", "--shutter": "0:0.1", "--variant": "0"}
 SAMPLES_STAY = {
     "--threads": "3", "--stats": None, "--progress": "none", "--exposure": "2", "--tonemap": "aces", "--memory-limit": "1G",
     "--max-time": "600", "--verbose": None, "--strict": None, "--time-limit": "500", "--save-every": "1", "--ppm": "ascii",
@@ -65,7 +65,7 @@ class Options(ProgramTest):
         for option, value in SAMPLES_DEPEND.items():
             self.assertIn(option, known)
             light = [word for word in LIGHT if option != "--size" or word not in ("--size", "16x12")]
-            result = self.run_program(*light, "--spp", "2", option, value, "--resume", "c", "-o", "a.exr")
+            result = self.run_program(*light, "--spp", "2", option, *([value] if value else []), "--resume", "c", "-o", "a.exr")
             self.assertEqual(result.returncode, 2, (option, result.stderr))
             self.assertIn(b"c: holds samples of another picture: ", result.stderr)
         self.assertEqual((self.folder / "c").read_bytes(), checkpoint)

@@ -52,6 +52,18 @@ constexpr std::array kLightOptions{
                [](Arguments& a, const OptionValue& value) {
                  a.environment.intensity = static_cast<float>(value.number(0, kMaxRadiance));
                }},
+    Option{.names = "--ground",
+           .metavar = "Y",
+           .help = "horizontal ground that shows only shadows, at the height Y, or lowest: at the "
+                   "lowest point of the scene",
+           .implied_value = "lowest",
+           .samples = Samples::change,
+           .words = [] { return std::vector<std::string>{"lowest"}; },
+           .set =
+               [](Arguments& a, const OptionValue& value) {
+                 a.path.ground =
+                     value.text == "lowest" ? Ground{} : Ground{.height = value.number()};
+               }},
 };
 static_assert(is_complete(kLightOptions));
 

@@ -51,6 +51,7 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
                  std::span<const SampleId> ids, std::span<Sample> samples) {
   begin(world, rays, ids);
   options_ = options;
+  ground_ = find_ground();
   for (; count_ > 0; ++step_.depth) {
     {
       const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
@@ -60,8 +61,12 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
     step();
     count_ = outgoing_.spawn_origins(world_->bvh, shadow_rays_,
                                      {.rays = rays_, .left = left_, .states = paths_});
-    const RayTimer timer(counts_.shadow, shadow_rays_.count());
+    const RayTimer timer(counts_.shadow, shadow_rays_.count() + ground_shadows_.count());
     counts_.beyond += shadow_rays_.trace(world_->bvh, *shading_, options_.backfaces, colors_);
+    if (ground_shadows_.count() == 0) continue;
+    counts_.beyond += ground_shadows_.trace(
+        world_->bvh, *shading_, options_.backfaces,
+        [this](std::size_t slot, float occlusion) { darken(slot, occlusion); });
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = {.color = colors_[i], .alpha = alphas_[i]};
@@ -90,6 +95,31 @@ void Wave::escape(const Ray& ray, const PathState& path) {
     colors_[path.slot] += path.throughput * lighting_->environment(wi);
     alphas_[path.slot] = 1;
   }
+  if (ground_ && path.pdf == 0) meet_ground(ray, path);
+}
+
+std::optional<float> Wave::find_ground() const {
+  if (!options_.ground) return std::nullopt;
+  if (const std::optional<double>& height = options_.ground->height)
+    return static_cast<float>(*height - world_->scene.origin.y);
+  const std::optional<double>& lowest = lighting_->ground(world_->scene).lowest();
+  return lowest ? std::optional(static_cast<float>(*lowest)) : std::nullopt;
+}
+
+void Wave::meet_ground(const Ray& ray, const PathState& path) {
+  const std::optional<Vec3> p = point_on_ground(ray, *ground_);
+  if (!p) return;
+  const float choice = path.sobol.pair(step_.pair(sampling::kLightChoicePair)).x;
+  const Vec2 u = path.sobol.pair(step_.pair(sampling::kLightPair));
+  if (const auto light = lighting_->ground(world_->scene).sample(*p, choice, u))
+    ground_shadows_.add(*p, light->to_light, light->is_far, path.slot);
+}
+
+void Wave::darken(std::size_t slot, float occlusion) {
+  if (lighting_->is_seen())
+    colors_[slot] *= 1 - occlusion;
+  else
+    alphas_[slot] = occlusion;
 }
 
 void Wave::widen(const Ray& ray, PathState& path) const {

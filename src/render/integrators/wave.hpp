@@ -1,6 +1,7 @@
 #pragma once
 /// A wavefront of paths that advance one bounce at a time, so that rays are traced in batches.
 
+#include "render/ground/ground_shadows.hpp"
 #include "render/integrators/outgoing_rays.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/shadow_rays.hpp"
@@ -61,6 +62,12 @@ class Wave {
   /// Sets the footprint of a camera path.
   void widen(const Ray& ray, PathState& path) const;
   void escape(const Ray& ray, const PathState& path);
+  /// Finds the y coordinate of the ground, if there is one, in scene coordinates.
+  [[nodiscard]] std::optional<float> find_ground() const;
+  /// Samples the light at the point where the ray meets the ground, if it does.
+  void meet_ground(const Ray& ray, const PathState& path);
+  /// Darkens a camera ray's sample by the occluded fraction of the ground's light.
+  void darken(std::size_t slot, float occlusion);
   /// The color channel with which a path continues through the surface. At a dispersive surface, a
   /// path with all channels chooses one at random.
   [[nodiscard]] int channel_of(const Material& material, const PathState& path) const;
@@ -75,6 +82,8 @@ class Wave {
   VertexQueues vertices_;
   OutgoingRays outgoing_;
   ShadowRays shadow_rays_;
+  std::optional<float> ground_;
+  GroundShadows ground_shadows_;
   const ShadingKernels* kernels_;
   HitLanes hit_lanes_{};
   std::size_t count_ = 0;

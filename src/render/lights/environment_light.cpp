@@ -77,6 +77,11 @@ EnvironmentLight::EnvironmentLight(const Environment& environment,
   }
 }
 
+ImageSize EnvironmentLight::map_size() const {
+  if (!tables_) return {.width = 1, .height = 1};
+  return {.width = tables_->map->width, .height = tables_->map->height};
+}
+
 MapPlace EnvironmentLight::place_of(const Vec3& d, float axis_range) const {
   const float turns = atan2_revolutions(d.z, d.x) + (0.5F + turn_);  // in [0, 2)
   const float u = turns - chosen(turns >= 1, 1, 0);

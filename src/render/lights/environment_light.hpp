@@ -4,6 +4,7 @@
 #include "base/memory_account.hpp"
 #include "render/lights/map_distribution.hpp"
 
+#include <microtrace/camera.hpp>
 #include <microtrace/environment.hpp>
 #include <microtrace/math.hpp>
 
@@ -42,6 +43,9 @@ class EnvironmentLight {
   /// True if the radiance is uniform. BSDF sampling is then at least as good as sampling the
   /// environment.
   [[nodiscard]] bool is_uniform() const { return !tables_; }
+
+  /// The size of the map in pixels; 1 x 1 for a uniform environment.
+  [[nodiscard]] ImageSize map_size() const;
 
   struct Sample {
     Vec3 wi;

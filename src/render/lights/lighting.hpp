@@ -1,6 +1,8 @@
 #pragma once
 /// The lighting of a picture: emitters, the environment, and light sampling.
 
+#include "base/lazy.hpp"
+#include "render/ground/ground_light.hpp"
 #include "render/guiding/environment_guide.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/kernel.hpp"
@@ -58,6 +60,11 @@ class Lighting {
   [[nodiscard]] float emitter_pdf(PrimitiveId id, const LightSampleContext& context, float distance,
                                   float cosine) const;
 
+  /// The light on a ground below the scene of this lighting.
+  [[nodiscard]] const GroundLight& ground(const Scene& scene) const {
+    return ground_.get([&] { return std::make_unique<GroundLight>(scene, environment_.get()); });
+  }
+
  private:
   /// The guide's cell for a surface; null if there is no guide.
   [[nodiscard]] const EnvironmentGuide::Cell* cell(const Vec3& p, const Vec3& n) const {
@@ -88,6 +95,7 @@ class Lighting {
   bool is_seen_;
   std::unique_ptr<const EnvironmentGuide> guide_;
   LightChoiceSetup setup_;
+  Lazy<GroundLight> ground_;
 };
 
 }  // namespace microtrace

@@ -55,6 +55,7 @@ DVec3 translation_to_origin(const PointBounds& points, const Camera& camera) {
 
 std::optional<Scene> moved(const Scene& scene, const DVec3& by) {
   Scene result = scene;
+  result.origin -= by;
   bool is_exact = true;
   for_each_point_of_shapes(result, [&](Vec3& p) {
     const Vec3 there(DVec3(p) + by);

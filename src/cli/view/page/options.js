@@ -57,7 +57,7 @@ export function showOptions(options) {
   for (const control of controls()) {
     const value = options.get(control.dataset.option);
     if (control.type === "range") control.value = value ?? 0;
-    else if (control.type === "checkbox") control.checked = value === null;
+    else if (control.type === "checkbox") control.checked = value !== undefined && value !== "false";
     else control.value = value ?? "";
     showNumber(control);
   }
