@@ -120,13 +120,14 @@ def test_lights_of_files_are_not_blown_out(program, tmp_path):
 
 
 def test_ground(program, tmp_path):
+    cube = SCENES / "gltf" / "cube.glb"
     ours, theirs = tmp_path / "ours.png", tmp_path / "theirs.png"
-    scene = mt.load(KNOT).prepare()
+    scene = mt.load(cube).prepare()
     arguments = {"size": SIZE, "spp": 4, "transparent": True}
     plain = mt.render(scene, **arguments)
     for ground, option in ((True, "--ground"), (-2, "--ground=-2")):
         options = ("--spp", 4, "--background", "transparent")
-        run(program, KNOT, *options, option, "-o", theirs)
+        run(program, cube, *options, option, "-o", theirs)
         picture = mt.render(scene, ground=ground, **arguments)
         picture.save(ours)
         assert ours.read_bytes() == theirs.read_bytes()
