@@ -127,6 +127,7 @@ class MICROTRACE_EXPORT Bvh {
   [[nodiscard]] std::shared_ptr<const BvhTree> tree() const;
 
  private:
+  friend class RayTracer;  // internal queries of rays in arrays
   struct MICROTRACE_HIDDEN Impl;
   std::unique_ptr<const Impl> impl_;
 };

@@ -1,5 +1,5 @@
+#include "accel/bvh_impl.hpp"
 #include "accel/bvh_tree.hpp"
-#include "accel/few_triangles.hpp"
 #include "accel/hit_rounding.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
@@ -22,44 +22,11 @@
 
 namespace microtrace {
 
-struct Bvh::Impl {
-  Impl(const Scene& scene, BvhOptions options);
-
-  [[nodiscard]] TreeView view() const {
-    return {.nodes = tree.nodes.data(),
-            .blocks = tree.blocks.data(),
-            .others = tree.others.data(),
-            .root = tree.root,
-            .few = few.get()};
-  }
-
-  [[nodiscard]] std::unique_ptr<RayStream> make_stream() const {
-    return std::make_unique<RayStream>(RayStream::Target{
-        .primitives = primitives, .outside = outside, .kernels = *kernels, .tree = view()});
-  }
-
-  [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
-  [[nodiscard]] std::optional<Hit> next(const Ray& ray, PrimitiveId after) const;
-  [[nodiscard]] bool occluded(const Ray& ray) const;
-  [[nodiscard]] std::optional<Vec3> search_origin(const Spawn& spawn) const;
-
-  /// Traces up to kPacketRays rays with a common origin. Returns false, without effect, if one of
-  /// the rays exceeds the kernels' limits.
-  [[nodiscard]] bool intersect_packet(std::span<const Ray> rays,
-                                      std::span<std::optional<Hit>> hits) const;
-
-  Primitives primitives;
-  std::shared_ptr<const BvhTree> shared;
-  const Tree& tree = shared->tree;
-  const std::vector<PrimitiveId>& outside = tree.unbounded;  // tested one by one
-  bool has_tree = !tree.blocks.empty() || !tree.others.empty();
-  std::unique_ptr<const FewTriangles> few = few_triangles(tree);
-  const Kernels* kernels = &kRayKernels.best();
-  const SpawnKernels* spawn_kernels = &kSpawnKernels.best();
-};
-
 Bvh::Impl::Impl(const Scene& scene, BvhOptions options)
-    : primitives(scene), shared(make_bvh_tree(primitives, std::move(options))) {}
+    : primitives(scene),
+      shared(make_bvh_tree(primitives, std::move(options))),
+      kernels(&kRayKernels.best()),
+      spawn_kernels(&kSpawnKernels.best()) {}
 
 namespace {
 
@@ -225,8 +192,7 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
     for (Spawn& spawn : represented) spawn.hit.id = duplicates.representative(spawn.hit.id);
     spawns = represented;
   }
-  FastSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels, *impl_->spawn_kernels,
-                   impl_->has_tree ? std::optional(impl_->view()) : std::nullopt);
+  FastSpawns quick = impl_->make_spawns();
   while (!spawns.empty()) {
     const std::size_t done = quick.origins(spawns, origins);
     for (std::size_t i = 0; i < done; ++i) {
@@ -262,7 +228,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
       done = impl_->has_tree ? unrelated_length(rays) : 1;
       const auto ask_one = [&](std::size_t i) { hits[i] = impl_->intersect(rays[i]); };
       if (done >= kLeastStream) {
-        if (!stream) stream = impl_->make_stream();
+        if (!stream) stream = std::make_unique<RayStream>(impl_->stream_target());
         stream->closest({rays.first(done), left.first(left.empty() ? 0 : done)}, hits.first(done),
                         ask_one);
       } else {
@@ -284,7 +250,7 @@ void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results,
     for (std::size_t i = 0; i < rays.size(); ++i) ask_one(i);
     return;
   }
-  const auto stream = impl_->make_stream();
+  const auto stream = std::make_unique<RayStream>(impl_->stream_target());
   for (std::size_t first = 0; first < rays.size(); first += kStreamRays) {
     const std::size_t count = std::min<std::size_t>(kStreamRays, rays.size() - first);
     stream->any({rays.subspan(first, count), left.empty() ? left : left.subspan(first, count)},

@@ -29,16 +29,37 @@ void RayStream::fill(const Rays& these) {
     std::fill_n(s.omitted_id, rays.size(), kNoPrimitive);
   else
     std::ranges::copy(left, s.omitted_id);
-  target_.kernels.prepare_stream(s);
+  prepare();
+}
+
+void RayStream::fill(const RayColumns& rays) {
+  assert(rays.count <= kStreamRays);
+  rays_ = {};
+  columns_ = rays;
+  KernelStream& s = stream_;
+  s.count = static_cast<int>(rays.count);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::copy_n(rays.o[axis], rays.count, s.o[axis]);
+    std::copy_n(rays.d[axis], rays.count, s.d[axis]);
+  }
+  std::fill_n(s.t_min, rays.count, 0.0F);
+  std::copy_n(rays.t_max, rays.count, s.best_hi);
+  std::copy_n(rays.left, rays.count, s.omitted_id);
+  prepare();
+}
+
+void RayStream::prepare() {
+  target_.kernels.prepare_stream(stream_);
   ask_outside();
 }
 
 void RayStream::ask_outside() {
   if (target_.outside.empty()) return;
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
+  for (std::size_t i = 0; i < count(); ++i) {
     if (!is_suited(i)) continue;
-    const HitResolver resolver(target_.primitives, rays_[i]);
-    ClosestSoFar best = no_hit(rays_[i]);
+    const Ray own = ray(i);
+    const HitResolver resolver(target_.primitives, own);
+    ClosestSoFar best = no_hit(own);
     for (const PrimitiveId id : target_.outside) resolver.consider(id, best);
     stream_.best_lo[i] = best.lo;
     stream_.best_hi[i] = best.hi;
@@ -49,9 +70,10 @@ void RayStream::ask_outside() {
 StreamFallback RayStream::fallback() {
   return {.context = this, .consider = [](void* self, int i, std::uint32_t id, ClosestSoFar& best) {
             const RayStream& stream = *static_cast<const RayStream*>(self);
-            const auto ray = static_cast<std::size_t>(i);
-            if (stream.is_suited(ray))
-              HitResolver(stream.target_.primitives, stream.rays_[ray]).consider(id, best);
+            const auto place = static_cast<std::size_t>(i);
+            if (!stream.is_suited(place)) return;
+            const Ray own = stream.ray(place);
+            HitResolver(stream.target_.primitives, own).consider(id, best);
           }};
 }
 
@@ -70,10 +92,14 @@ void RayStream::find_closest(const Rays& these, std::span<std::optional<Hit>> hi
   }
 }
 
-void RayStream::find_any(const Rays& rays, std::span<bool> results) {
-  fill(rays);
+void RayStream::find_closest(std::span<PrimitiveId> ids) {
+  target_.kernels.closest_of_stream(target_.tree, stream_, fallback());
+  std::copy_n(stream_.best_id, count(), ids.begin());
+}
+
+void RayStream::find_any(std::span<bool> results) {
   target_.kernels.any_of_stream(target_.tree, stream_, fallback());
-  for (std::size_t i = 0; i < rays_.size(); ++i) results[i] = stream_.best_id[i] != kNoPrimitive;
+  for (std::size_t i = 0; i < count(); ++i) results[i] = stream_.best_id[i] != kNoPrimitive;
 }
 
 }  // namespace microtrace

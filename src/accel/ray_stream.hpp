@@ -12,6 +12,28 @@
 
 namespace microtrace {
 
+/// Rays in one array per component, and the primitives that they leave as in Bvh::intersect.
+struct RayColumns {
+  const float *o[3], *d[3], *t_max;  ///< t_min is 0
+  const PrimitiveId* left;
+  std::size_t count;
+
+  [[nodiscard]] Ray operator[](std::size_t i) const {
+    return {.o = {o[0][i], o[1][i], o[2][i]},
+            .t_min = 0,
+            .d = {d[0][i], d[1][i], d[2][i]},
+            .t_max = t_max[i]};
+  }
+  /// The rays from `first` on.
+  [[nodiscard]] RayColumns from(std::size_t first) const {
+    return {.o = {o[0] + first, o[1] + first, o[2] + first},
+            .d = {d[0] + first, d[1] + first, d[2] + first},
+            .t_max = t_max + first,
+            .left = left + first,
+            .count = count - first};
+  }
+};
+
 /// Traces up to kStreamRays rays at a time. The caller must trace rays beyond the kernels' limits.
 class RayStream {
  public:
@@ -37,21 +59,39 @@ class RayStream {
     for_each_unsuited(other);
   }
   void any(const Rays& rays, std::span<bool> results, const auto& other) {
-    find_any(rays, results);
+    fill(rays);
+    find_any(results);
+    for_each_unsuited(other);
+  }
+
+  /// Do the same for rays in columns. `ids` are those of the nearest hits, or kNoPrimitive.
+  void closest(const RayColumns& rays, std::span<PrimitiveId> ids, const auto& other) {
+    fill(rays);
+    find_closest(ids);
+    for_each_unsuited(other);
+  }
+  void any(const RayColumns& rays, std::span<bool> results, const auto& other) {
+    fill(rays);
+    find_any(results);
     for_each_unsuited(other);
   }
 
  private:
   void fill(const Rays& rays);
+  void fill(const RayColumns& rays);
+  void prepare();
   void ask_outside();
   void find_closest(const Rays& rays, std::span<std::optional<Hit>> hits);
-  void find_any(const Rays& rays, std::span<bool> results);
+  void find_closest(std::span<PrimitiveId> ids);
+  void find_any(std::span<bool> results);
+  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(stream_.count); }
+  [[nodiscard]] Ray ray(std::size_t i) const { return rays_.empty() ? columns_[i] : rays_[i]; }
   [[nodiscard]] StreamFallback fallback();
   [[nodiscard]] bool is_suited(std::size_t i) const {
     return (stream_.suited[i / 64] >> i % 64 & 1U) != 0;
   }
   void for_each_unsuited(const auto& f) const {
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
+    for (std::size_t i = 0; i < count(); ++i) {
       if (i % 64 == 0 && stream_.suited[i / 64] == ~std::uint64_t{0})
         i += 63;
       else if (!is_suited(i))
@@ -60,7 +100,8 @@ class RayStream {
   }
 
   Target target_;
-  std::span<const Ray> rays_;
+  std::span<const Ray> rays_;  // empty if the rays are in columns_
+  RayColumns columns_{};
   KernelStream stream_;
 };
 

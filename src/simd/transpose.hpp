@@ -1,21 +1,63 @@
 #pragma once
-/// Transposes small matrices.
+/// Transposes matrices, and loads the rows of arrays as columns.
 
 #include "simd/vectors.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 namespace microtrace {
 inline namespace MICROTRACE_KERNELS {
 
-/// Transposes a 4 x 4 matrix.
-inline void transpose(Float<4> (&m)[4]) {
-  const Float<4> low01 = __builtin_shufflevector(m[0], m[1], 0, 4, 1, 5),
-                 high01 = __builtin_shufflevector(m[0], m[1], 2, 6, 3, 7),
-                 low23 = __builtin_shufflevector(m[2], m[3], 0, 4, 1, 5),
-                 high23 = __builtin_shufflevector(m[2], m[3], 2, 6, 3, 7);
-  m[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
-  m[1] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
-  m[2] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
-  m[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+/// Exchanges the upper right with the lower left blocks of size kStep in two rows, whose distance
+/// is kStep. The rows consist of blocks of size 2 kStep.
+template <int N, int kStep, std::size_t... kColumns>
+inline void exchange_blocks(Float<N>& a, Float<N>& b,
+                            std::index_sequence<kColumns...> /*columns*/) {
+  constexpr int kSize = kStep;
+  const Float<N> upper =
+      __builtin_shufflevector(a, b,
+                              ((kColumns & kSize) != 0 ? N + static_cast<int>(kColumns) - kSize
+                                                       : static_cast<int>(kColumns))...);
+  const Float<N> lower =
+      __builtin_shufflevector(a, b,
+                              ((kColumns & kSize) != 0 ? N + static_cast<int>(kColumns)
+                                                       : static_cast<int>(kColumns) + kSize)...);
+  a = upper;
+  b = lower;
+}
+
+/// Transposes an N x N matrix, first its blocks of size kStep, then the contents of the blocks.
+template <int N, int kStep = N / 2>
+inline void transpose(Float<N> (&m)[N]) {
+  if constexpr (kStep > 0) {
+    for (int i = 0; i < N; ++i) {
+      if ((i & kStep) == 0)
+        exchange_blocks<N, kStep>(m[i], m[i + kStep], std::make_index_sequence<N>{});
+    }
+    transpose<N, kStep / 2>(m);
+  }
+}
+
+/// Loads row indices[i] of an array into lane i of the columns. Rows have kColumns floats, a
+/// multiple of N.
+template <int N, int kColumns>
+inline void load_rows(const float* array, const std::uint32_t (&indices)[N],
+                      Float<N> (&columns)[kColumns]) {
+  if constexpr (N == 1) {
+    for (int k = 0; k < kColumns; ++k)
+      columns[k] = array[kColumns * std::size_t{indices[0]} + static_cast<std::size_t>(k)];
+  } else {
+    static_assert(kColumns % N == 0);
+    for (int first = 0; first < kColumns; first += N) {
+      Float<N> block[N];
+      for (int i = 0; i < N; ++i)
+        block[i] = load<N>(array + kColumns * std::size_t{indices[i]} + first);
+      transpose<N>(block);
+      for (int k = 0; k < N; ++k) columns[first + k] = block[k];
+    }
+  }
 }
 
 }  // namespace MICROTRACE_KERNELS

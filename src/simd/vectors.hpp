@@ -175,7 +175,7 @@ template <int N>
 inline auto mask_of(Lanes lanes) {
   using Bits = typename FloatVector<N>::bits_type;
   Bits bit{};
-  for (int i = 0; i < N; ++i) bit[i] = 1 << i;
+  for (int i = 0; i < N; ++i) set_lane(bit, i, 1 << i);
   return (bit & static_cast<std::int32_t>(lanes)) != 0;
 }
 

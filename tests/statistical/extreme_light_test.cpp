@@ -91,11 +91,27 @@ std::vector<LightBounds> lights(Extremes& random, std::size_t count) {
   return result;
 }
 
-/// Returns the light's importance without its cosine factors.
-double head_on(const LightBounds& light, const Vec3& p) {
+/// A light's importance in float64, and the importance without its cosine factors.
+struct Importance {
+  double value = 0, head_on = 0;
+};
+Importance importance(const LightBounds& light, const Vec3& p, const Vec3& n) {
   const DVec3 low(light.low), high(light.high), way = DVec3(p) - (low + high) / 2.0;
-  const double square = std::max(glm::dot(way, way), glm::dot(high - low, high - low) / 4);
-  return square > 0 ? light.power / square : 0;
+  const double radius_square = glm::dot(high - low, high - low) / 4, square = glm::dot(way, way);
+  Importance result{.head_on = light.power / std::max(square, radius_square)};
+  if (square == 0) return {};
+  const DVec3 direction = way / std::sqrt(square);
+  const double box = std::asin(std::sqrt(std::min(radius_square / square, 1.0)));
+  const double along = std::clamp(glm::dot(DVec3(light.cone.axis), direction), -1.0, 1.0);
+  const double off_axis = std::acos(light.two_sided ? std::abs(along) : along);
+  const double off_cone = std::max(off_axis - std::acos(double{light.cone.cos_o}) - box, 0.0);
+  const double arriving = std::acos(std::min(std::abs(glm::dot(DVec3(n), direction)), 1.0));
+  const double least = square <= radius_square ? 1 : std::cos(off_cone);
+  const double least_arriving =
+      square <= radius_square ? 1 : std::cos(std::max(arriving - box, 0.0));
+  if (least < light.cone.cos_e || least < 0 || least_arriving < 0) return result;
+  result.value = result.head_on * least * least_arriving;
+  return result;
 }
 
 // The probability need not be positive for lights at grazing angles, whose importance is below the
@@ -108,16 +124,16 @@ TEST(ExtremeLights, ProbabilitiesAddUpToOne) {
     const LightTree tree(all);
     for (int i = 0; i < 4; ++i) {
       const Vec3 p = i == 0 ? all[random.below(count)].low : random.place(), n = random.direction();
-      const double importance = LightNodes<1>(*tree.nodes()).importance(DVec3(p), n);
-      ASSERT_TRUE(std::isfinite(importance) && importance >= 0) << seed;
+      const float total = LightNodes<1>(*tree.nodes()).importance(tree.space().point<1>(p), n);
+      ASSERT_TRUE(std::isfinite(total) && total >= 0) << seed;
       double sum = 0;
       for (std::size_t light = 0; light < count; ++light) {
-        const double probability = tree.probability(light, p, n);
+        const float probability = tree.probability(light, p, n);
         ASSERT_TRUE(probability >= 0 && probability <= 1) << seed;
-        if (all[light].importance(p, n) > 1e-6 * head_on(all[light], p)) {
+        if (const auto [value, head_on] = importance(all[light], p, n); value > 1e-6 * head_on) {
           EXPECT_GT(probability, 0) << seed << " " << i << " " << light;
         }
-        sum += probability;
+        sum += double{probability};
       }
       EXPECT_LE(sum, 1 + 1e-5) << seed;
       double chosen = 0;

@@ -86,9 +86,13 @@ TEST(LightTree, UnitedBoundsContainBoth) {
   for (int i = 0; i < 20000; ++i) {
     const auto two = lights(random, 2);
     const Vec3 p = random.in_cube(12), n = random.direction();
-    const LightBounds both = united(two[0], two[1]);
-    if (two[0].importance(p, n) > 0 || two[1].importance(p, n) > 0) {
-      EXPECT_GT(both.importance(p, n), 0);
+    const LightTree tree(two);
+    const auto importance = [&](std::uint32_t node) {
+      return LightNodes<1>(tree.nodes()[node]).importance(tree.space().point<1>(p), n);
+    };
+    const std::uint32_t children = tree.nodes()->children;
+    if (importance(children) > 0 || importance(children + 1) > 0) {
+      EXPECT_GT(importance(0), 0);
     }
   }
 }

@@ -19,7 +19,7 @@ MAY_INCLUDE = {
     "scene": {"base", "simd"},
     "accel": {"base", "simd", "exact", "scene"},
     "queries": {"base", "simd", "exact", "scene", "accel"},
-    "render": {"base", "simd", "scene"},
+    "render": {"base", "simd", "scene", "accel"},
     "explain": {"base", "exact", "scene", "accel", "render"},
     "io": {"base", "scene"},
     "denoise": {"base", "io"},

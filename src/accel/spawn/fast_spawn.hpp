@@ -6,6 +6,7 @@
 #include "accel/kernels/kernel.hpp"
 #include "accel/spawn/box_clearance.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
+#include "simd/vector_types.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/hit.hpp>
@@ -65,6 +66,9 @@ class FastSpawn {
   int axis_ = 0;  // the axis along which origins are moved
 };
 
+/// The ray in a lane.
+[[nodiscard]] Ray ray_of(const HitPointLanes& lanes, std::size_t lane);
+
 /// Computes the origins of rays that leave several hits at a time.
 class FastSpawns {
  public:
@@ -83,27 +87,33 @@ class FastSpawns {
   /// origin is empty if float64 can't decide it.
   std::size_t origins(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
 
- private:
   static constexpr std::size_t kHits = kBoxQueries;
   static_assert(kHits == kSpawnLanes);
 
+  /// Instead of origins(): sets the hits that rays leave, one in each lane of `points`. The caller
+  /// has set the rays of all hits, and the vertices of the lanes that are in `on_meshes`, which are
+  /// triangles of meshes. `ids` must represent their duplicates. Finds what is near the hits.
+  void set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes, HitPointLanes& points);
+  /// Computes the origins of rays that leave the `wanted` hits. Returns the lanes whose origins
+  /// float64 can decide.
+  [[nodiscard]] Lanes leave(Lanes wanted, OriginLanes& lanes) const;
+
+ private:
   /// A surface that rays leave, and its hit point.
   struct LeftSurface {
     PrimitiveId id;
-    bool is_triangle;                ///< true if hit_points_ holds the triangle, in the lane with
-                                     ///< the index of the hit
+    bool is_triangle;                ///< true if points_ holds the triangle, in the lane with the
+                                     ///< index of the hit
     bool is_known;                   ///< true if float64 can determine the hit point
-    bool is_alone;                   ///< true if certainly no other surface is between the exact
-                                     ///< hit point and the origins
     std::optional<FastSpawn> other;  ///< set for non-triangle surfaces
   };
 
-  void add(const Bvh::Spawn& spawn);
+  void add(PrimitiveId id, const Ray& ray);
   void put(const Triangle& triangle, const Ray& ray, std::size_t lane);
+  void find_points();
   void set_query(std::size_t hit);
-  void find_neighbors();
+  /// True if certainly no other surface is between the exact hit point and the origins.
   [[nodiscard]] bool is_alone(std::size_t hit) const;
-  void leave_triangles(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
 
   const Primitives& primitives_;
   std::span<const PrimitiveId> outside_;
@@ -111,10 +121,12 @@ class FastSpawns {
   const SpawnKernels& spawn_kernels_;
   const std::optional<TreeView> tree_;
   std::size_t hits_ = 0;
+  Lanes triangles_ = 0, alone_ = 0;  // of the surfaces
   std::array<LeftSurface, kHits> surfaces_;
   std::array<std::size_t, kHits + 1> first_spawn_;  // index of each hit's first spawn
   std::array<BoxQuery, kHits> queries_;
-  HitPointLanes hit_points_{};
+  HitPointLanes* points_ = nullptr;
+  HitPointLanes own_points_{};
   OriginLanes origins_{};
 };
 

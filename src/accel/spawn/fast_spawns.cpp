@@ -45,31 +45,39 @@ void set_empty(BoxQuery& query) {
 
 }  // namespace
 
-void FastSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
-  put_vector(hit_points_.a, lane, t.a);
-  put_vector(hit_points_.b, lane, t.b);
-  put_vector(hit_points_.c, lane, t.c);
-  put_vector(hit_points_.o, lane, ray.o);
-  put_vector(hit_points_.d, lane, ray.d);
-  hit_points_.t_min[lane] = ray.t_min;
-  hit_points_.t_max[lane] = ray.t_max;
+Ray ray_of(const HitPointLanes& lanes, std::size_t lane) {
+  return {.o = vector_of(lanes.o, lane),
+          .t_min = lanes.t_min[lane],
+          .d = vector_of(lanes.d, lane),
+          .t_max = lanes.t_max[lane]};
 }
 
-void FastSpawns::add(const Bvh::Spawn& spawn) {
+void FastSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
+  put_vector(points_->a, lane, t.a);
+  put_vector(points_->b, lane, t.b);
+  put_vector(points_->c, lane, t.c);
+  put_vector(points_->o, lane, ray.o);
+  put_vector(points_->d, lane, ray.d);
+  points_->t_min[lane] = ray.t_min;
+  points_->t_max[lane] = ray.t_max;
+}
+
+void FastSpawns::add(PrimitiveId id, const Ray& ray) {
   LeftSurface& surface = surfaces_[hits_];
-  surface.id = spawn.hit.id;
+  surface.id = id;
   surface.is_triangle = false;
   surface.other.reset();
-  if (spawn.hit.id < primitives_.count()) {
-    primitives_.visit(spawn.hit.id, [&]<class AnyShape>(const AnyShape& shape) {
+  if (id < primitives_.count()) {
+    primitives_.visit(id, [&]<class AnyShape>(const AnyShape& shape) {
       surface.is_triangle = std::is_same_v<AnyShape, Triangle>;
       if constexpr (std::is_same_v<AnyShape, Triangle>) {
-        put(shape, *spawn.ray, hits_);  // the kernel reports invalid rays as uncertain
-      } else if (exact::is_valid(*spawn.ray)) {
-        surface.other.emplace(shape, *spawn.ray);
+        put(shape, ray, hits_);  // the kernel reports invalid rays as uncertain
+      } else if (exact::is_valid(ray)) {
+        surface.other.emplace(shape, ray);
       }
     });
   }
+  if (surface.is_triangle) triangles_ |= Lanes{1} << hits_;
   ++hits_;
 }
 
@@ -79,13 +87,13 @@ void FastSpawns::set_query(std::size_t hit) {
   query.count = 0;
   query.omitted_id = surface.id;
   if (surface.is_triangle) {
-    surface.is_known = hit_points_.is_sure[hit] != 0;
+    surface.is_known = points_->is_sure[hit] != 0;
     for (int k = 0; k < 3; ++k) {
-      query.lo[k] = hit_points_.lo[k][hit];
-      query.hi[k] = hit_points_.hi[k][hit];
+      query.lo[k] = points_->lo[k][hit];
+      query.hi[k] = points_->hi[k][hit];
     }
-    query.plane_axis = static_cast<int>(hit_points_.plane_axis[hit]);
-    if (query.plane_axis >= 0) query.plane_at = hit_points_.a[query.plane_axis][hit];
+    query.plane_axis = static_cast<int>(points_->plane_axis[hit]);
+    if (query.plane_axis >= 0) query.plane_at = points_->a[query.plane_axis][hit];
     return;
   }
   surface.is_known = surface.other && surface.other->point();
@@ -104,8 +112,8 @@ bool FastSpawns::is_alone(std::size_t hit) const {
   if (!surface.is_known || found.count < 0) return false;
   if (found.count == 0 && outside_.empty()) return true;
   const bool is_triangle = surface.is_triangle;
-  const DVec3 p(is_triangle ? vector_of(hit_points_.p, hit) : *surface.other->point());
-  const DVec3 reach = is_triangle ? vector_of(hit_points_.reach, hit) : surface.other->reach();
+  const DVec3 p(is_triangle ? vector_of(points_->p, hit) : *surface.other->point());
+  const DVec3 reach = is_triangle ? vector_of(points_->reach, hit) : surface.other->reach();
   // Surfaces in the same plane as the surface that the ray leaves don't obstruct the ray. The query
   // already omits such triangles.
   const auto is_in_plane = [&](const auto& shape) {
@@ -125,60 +133,81 @@ bool FastSpawns::is_alone(std::size_t hit) const {
          std::all_of(outside_.begin(), outside_.end(), is_primitive_passed);
 }
 
-void FastSpawns::find_neighbors() {
+void FastSpawns::find_points() {
+  if (triangles_ != 0) spawn_kernels_.find_hit_points(*points_);
   for (std::size_t hit = 0; hit < hits_; ++hit) set_query(hit);
   if (tree_) kernels_.touching(*tree_, queries_.data(), static_cast<int>(hits_));
-  for (std::size_t hit = 0; hit < hits_; ++hit) surfaces_[hit].is_alone = is_alone(hit);
+  alone_ = 0;
+  for (std::size_t hit = 0; hit < hits_; ++hit) {
+    if (is_alone(hit)) alone_ |= Lanes{1} << hit;
+  }
 }
 
-void FastSpawns::leave_triangles(std::span<const Bvh::Spawn> spawns,
-                                 std::span<std::optional<Vec3>> origins) {
-  // Each pass computes the next origin for every triangle that still has one.
-  for (std::size_t number = 0;; ++number) {
-    std::uint32_t hits = 0;  // one bit per hit
-    for (std::size_t hit = 0; hit < hits_; ++hit) {
-      const std::size_t i = first_spawn_[hit] + number;
-      if (i >= first_spawn_[hit + 1] || !surfaces_[hit].is_triangle || !surfaces_[hit].is_alone)
-        continue;
-      put_vector(origins_.direction, hit, spawns[i].direction);
-      hits |= 1U << hit;
+void FastSpawns::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes,
+                          HitPointLanes& points) {
+  points_ = &points;
+  hits_ = 0;
+  triangles_ = on_meshes;
+  for (const PrimitiveId id : ids) {
+    if ((on_meshes >> hits_ & 1U) == 0) {
+      add(id, ray_of(points, hits_));
+      continue;
     }
-    if (hits == 0) return;
-    spawn_kernels_.find_origins(hit_points_, origins_);
-    for (; hits != 0; hits &= hits - 1) {
-      const auto hit = static_cast<std::size_t>(std::countr_zero(hits));
-      if (origins_.is_sure[hit] != 0)
-        origins[first_spawn_[hit] + number] = vector_of(origins_.origin, hit);
+    surfaces_[hits_].id = id;
+    surfaces_[hits_++].is_triangle = true;
+  }
+  find_points();
+}
+
+Lanes FastSpawns::leave(Lanes wanted, OriginLanes& lanes) const {
+  const Lanes open = wanted & alone_;
+  Lanes found = 0;
+  if ((open & triangles_) != 0) found = spawn_kernels_.find_origins(*points_, lanes) & open;
+  found &= triangles_;
+  for (Lanes others = open & ~triangles_; others != 0; others &= others - 1) {
+    const auto hit = static_cast<std::size_t>(std::countr_zero(others));
+    const auto& surface = surfaces_[hit].other;
+    if (!surface) continue;
+    if (const auto origin = surface->origin(vector_of(lanes.direction, hit))) {
+      put_vector(lanes.origin, hit, *origin);
+      found |= Lanes{1} << hit;
     }
   }
+  return found;
 }
 
 std::size_t FastSpawns::origins(std::span<const Bvh::Spawn> spawns,
                                 std::span<std::optional<Vec3>> origins) {
+  points_ = &own_points_;
   hits_ = 0;
+  triangles_ = 0;
   std::size_t done = 0;
   for (; done < spawns.size(); ++done) {
     const Bvh::Spawn& spawn = spawns[done];
+    origins[done].reset();
     if (done > 0 && spawns[done - 1].ray == spawn.ray && spawns[done - 1].hit.id == spawn.hit.id)
       continue;
     if (hits_ == kHits) break;
     first_spawn_[hits_] = done;
-    add(spawn);
+    add(spawn.hit.id, *spawn.ray);
   }
   first_spawn_[hits_] = done;
-  const std::span<const LeftSurface> surfaces = std::span(surfaces_).first(hits_);
-  if (std::ranges::any_of(surfaces, &LeftSurface::is_triangle))
-    spawn_kernels_.find_hit_points(hit_points_);
-  find_neighbors();
-  for (std::size_t hit = 0; hit < hits_; ++hit) {
-    const LeftSurface& surface = surfaces_[hit];
-    for (std::size_t i = first_spawn_[hit]; i < first_spawn_[hit + 1]; ++i) {
-      origins[i] = surface.other && surface.is_alone ? surface.other->origin(spawns[i].direction)
-                                                     : std::nullopt;
+  find_points();
+  // Each pass computes the next origin for every hit that still has one.
+  for (std::size_t number = 0;; ++number) {
+    Lanes wanted = 0;
+    for (std::size_t hit = 0; hit < hits_; ++hit) {
+      const std::size_t i = first_spawn_[hit] + number;
+      if (i >= first_spawn_[hit + 1]) continue;
+      put_vector(origins_.direction, hit, spawns[i].direction);
+      wanted |= Lanes{1} << hit;
+    }
+    if (wanted == 0) return done;
+    for (Lanes found = leave(wanted, origins_); found != 0; found &= found - 1) {
+      const auto hit = static_cast<std::size_t>(std::countr_zero(found));
+      origins[first_spawn_[hit] + number] = vector_of(origins_.origin, hit);
     }
   }
-  leave_triangles(spawns.first(done), origins);
-  return done;
 }
 
 }  // namespace microtrace

@@ -212,8 +212,8 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
     warnings.report_picture(
         picture_warning(view_of(film, drawn, camera, options), arguments, drawn));
   if (!arguments.sampling.shard) {
-    const auto times = options.shutter ? std::optional(options.shutter->times) : std::nullopt;
-    save_picture(arguments, drawn, camera, times, film, files);
+    const auto instants = options.shutter ? std::optional(options.shutter->times) : std::nullopt;
+    save_picture(arguments, drawn, camera, instants, film, files);
   }
   watch.written();
   if (reports_files(arguments)) {

@@ -1,10 +1,13 @@
 #pragma once
 #include "render/integrators/power_heuristic.hpp"
-#include "render/lights/lighting.hpp"
+#include "render/lights/emitters.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 
+#include <microtrace/hit.hpp>
+#include <microtrace/integrator.hpp>
 #include <microtrace/math.hpp>
+#include <microtrace/ray.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -12,16 +15,49 @@
 
 namespace microtrace {
 
-/// The state of one path.
-struct PathState {
-  sampling::Sobol sobol{};
-  std::size_t slot = 0;  ///< index in the batch
-  Vec3 throughput{1};
-  float pdf = 0;              ///< pdf of the last direction; 0 for camera rays
-  LightSampleContext from{};  ///< the previous vertex
-  Vec3 absorption{0};         ///< absorption of the current medium, in powers of two per length
-  int channel = 3;            ///< color channel in a dispersive medium, 0 to 2; 3 for all channels
-  float begin = 0, spread = 0;  ///< footprint width at the origin, and growth with distance
+/// One element for each path of a wavefront.
+using PathFloats = float[kRandomBatch];
+using PathNumbers = std::uint32_t[kRandomBatch];
+
+[[nodiscard]] inline Vec3 vector_of(const PathFloats (&columns)[3], std::size_t i) {
+  return {columns[0][i], columns[1][i], columns[2][i]};
+}
+inline void put_vector(PathFloats (&columns)[3], std::size_t i, const Vec3& v) {
+  columns[0][i] = v.x;
+  columns[1][i] = v.y;
+  columns[2][i] = v.z;
+}
+
+/// The paths of a wavefront and their current rays, in one array per component.
+struct alignas(64) PathColumns {
+  PathFloats o[3], d[3];  ///< the ray
+  PathFloats t_min, t_max;
+  PathNumbers left;        ///< the primitive that the ray leaves; unused for camera rays
+  PathNumbers key, index;  ///< of sampling::Sobol
+  PathNumbers slot;        ///< index in the batch
+  PathFloats throughput[3];
+  PathFloats pdf;                   ///< pdf of the ray's direction; 0 for camera rays
+  PathFloats from_p[3], from_n[3];  ///< LightSampleContext of the previous vertex
+  PathFloats absorption[3];  ///< absorption of the current medium, in powers of two per length
+  PathNumbers channel;       ///< color channel in a dispersive medium, 0 to 2; 3 for all channels
+  PathFloats begin, spread;  ///< footprint width at the origin, and growth with distance
+
+  [[nodiscard]] Ray ray(std::size_t i) const {
+    return {.o = vector_of(o, i), .t_min = t_min[i], .d = vector_of(d, i), .t_max = t_max[i]};
+  }
+  [[nodiscard]] sampling::Sobol sobol(std::size_t i) const { return {key[i], index[i]}; }
+  [[nodiscard]] LightSampleContext from(std::size_t i) const {
+    return {.p = vector_of(from_p, i), .n = vector_of(from_n, i)};
+  }
+};
+
+/// Shadow rays in one array per component, and the light that arrives unless they are occluded.
+struct alignas(64) ShadowColumns {
+  PathFloats o[3], d[3], t_max;
+  PathNumbers left;    ///< the primitive that the ray leaves
+  PathNumbers target;  ///< the emissive surface at which the ray ends, or LightSamples::kNoTarget
+  PathNumbers slot;    ///< of the path
+  PathFloats light[3];
 };
 
 /// Parameters common to all paths of a wavefront at one bounce.

@@ -1,59 +1,89 @@
 #include "render/integrators/shadow_rays.hpp"
 
+#include "render/integrators/column_list.hpp"
 #include "render/shading/transmittance.hpp"
 
-#include <new>
+#include <bit>
+#include <limits>
 
 namespace microtrace {
+namespace {
 
-void ShadowRays::add(const Shadow& shadow, const Vec3& origin, const Vec3& direction,
-                     PrimitiveId surface) {
-  Group& group = shadow.target ? aimed_ : free_;
-  // Creates the ray in place, because copying a struct that was just written in parts is slow.
-  ::new (&group.rays[group.count])
-      Ray{.o = origin, .t_min = 0, .d = direction, .t_max = shadow.t_max};
-  group.finish(shadow, surface);
+constexpr std::uint32_t kNoTarget = LightSamples<kShadingLanes>::kNoTarget;
+
+}  // namespace
+
+void ShadowRays::Group::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from,
+                            const LaneFloats& t_max) {
+  if (lanes == 0) return;
+  ColumnList list;
+  list.add(from.rays.origin, rays.o);
+  list.add(from.rays.direction, rays.d);
+  list.add(t_max, rays.t_max);
+  list.add(from.left, rays.left);
+  list.add(from.samples.target, rays.target);
+  list.add(from.slots, rays.slot);
+  list.add(from.light, rays.light);
+  list.append(kernels, {.lanes = lanes, .from = 0, .to = count});
+  count += static_cast<std::size_t>(std::popcount(lanes));
 }
 
-void ShadowRays::Group::finish(const Shadow& shadow, PrimitiveId surface) {
-  light[count] = shadow.color;
-  slots[count] = shadow.slot;
-  targets[count] = shadow.target;
-  left[count++] = surface;
+RayColumns ShadowRays::Group::columns() const {
+  return {.o = {rays.o[0], rays.o[1], rays.o[2]},
+          .d = {rays.d[0], rays.d[1], rays.d[2]},
+          .t_max = rays.t_max,
+          .left = rays.left,
+          .count = count};
 }
 
-std::uint64_t ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, bool passes_backs,
-                                      Group& group, std::span<Vec3> colors) {
-  std::uint64_t beyond = 0;
-  bvh.intersect(std::span(group.rays).first(group.count), std::span(hits_).first(group.count),
-                std::span(group.left).first(group.count));
-  for (std::size_t i = 0; i < group.count; ++i) {
-    colors[group.slots[i]] += transmittance(bvh, shading, passes_backs, group.rays[i], hits_[i],
-                                            group.targets[i], beyond) *
-                              group.light[i];
+void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  LaneFloats t_max;
+  Lanes aimed = 0;
+  for (int lane = 0; lane < kShadingLanes; ++lane) {
+    const bool has_target = from.samples.target[lane] != kNoTarget;
+    aimed |= Lanes{has_target} << lane;
+    // A punctual light is at t = 1. An emissive triangle is hit at about t = 1.
+    t_max[lane] = has_target || from.samples.is_far[lane] != 0 ? kInfinity : 1;
   }
-  group.count = 0;
-  return beyond;
+  aimed_.add(kernels, lanes & aimed, from, t_max);
+  free_.add(kernels, lanes & ~aimed, from, t_max);
 }
 
-std::uint64_t ShadowRays::trace(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
-                                std::span<Vec3> colors) {
-  const bool passes_backs = backfaces == Backfaces::pass;
-  std::array<bool, kRandomBatch> occluded;
-  bvh.occluded(std::span(free_.rays).first(free_.count), std::span(occluded).first(free_.count),
-               std::span(free_.left).first(free_.count));
+std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading& shading,
+                                Backfaces backfaces, std::span<Vec3> colors) {
+  passes_backs_ = backfaces == Backfaces::pass;
+  beyond_ = 0;
+  // False if each surface blocks the light.
+  const bool may_pass = !shading.all_cover() || (passes_backs_ && shading.has_open_backs());
+  const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
+    colors[rays.slot[i]] += part * vector_of(rays.light, i);
+  };
+  tracer.any(free_.columns(), std::span(occluded_).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
-    if (!occluded[i]) {
-      colors[free_.slots[i]] += free_.light[i];
-    } else if (!shading.all_cover() || (passes_backs && shading.has_open_backs())) {
-      met_.rays[met_.count] = free_.rays[i];
-      met_.finish({.color = free_.light[i], .t_max = 0, .slot = free_.slots[i], .target = {}},
-                  free_.left[i]);
+    if (!occluded_[i]) {
+      add(free_.rays, i, 1);
+    } else if (may_pass) {
+      const Ray ray = free_.columns()[i];
+      const std::optional<Hit> hit = bvh.intersect(ray);
+      add(free_.rays, i,
+          transmittance(bvh, shading, passes_backs_, ray, hit, std::nullopt, beyond_));
     }
   }
-  free_.count = 0;
-  const std::uint64_t beyond = pass_layers(bvh, shading, passes_backs, met_, colors);
-  return beyond + pass_layers(bvh, shading, passes_backs, aimed_, colors);
+  tracer.closest(aimed_.columns(), std::span(hits_).first(aimed_.count));
+  for (std::size_t i = 0; i < aimed_.count; ++i) {
+    const PrimitiveId target = aimed_.rays.target[i];
+    if (hits_[i] == target) {
+      add(aimed_.rays, i, 1);
+    } else if (may_pass && hits_[i] != kNoPrimitive) {
+      const Ray ray = aimed_.columns()[i];
+      add(aimed_.rays, i,
+          transmittance(bvh, shading, passes_backs_, ray, tracer.hit(ray, hits_[i]), target,
+                        beyond_));
+    }
+  }
+  free_.count = aimed_.count = 0;
+  return beyond_;
 }
 
 }  // namespace microtrace

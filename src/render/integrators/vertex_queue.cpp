@@ -1,45 +1,34 @@
 #include "render/integrators/vertex_queue.hpp"
 
-#include "render/bsdf/put_surface.hpp"
+#include "render/integrators/column_list.hpp"
 #include "render/kernels/dispatch.hpp"
-#include "render/kernels/lane_access.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
+#include <limits>
 
 namespace microtrace {
 namespace {
 
-void put_point(NormalLanes& lanes, int lane, const Ray& ray, const SurfacePoint& at) {
-  put(lanes.d, lane, ray.d);
-  put(lanes.n, lane, at.n);
-  put(lanes.ns, lane, at.ns);
-  lanes.side[lane] = at.front ? 1.0F : -1.0F;
+/// The lanes in which a comparison is true.
+template <class F>
+Lanes lanes_where(const F& condition) {
+  Lanes lanes = 0;
+  for (int lane = 0; lane < kShadingLanes; ++lane)
+    lanes |= Lanes{condition(lane) ? 1U : 0U} << lane;
+  return lanes;
 }
 
-void put_tangents(NormalLanes& lanes, int lane, const SurfacePoint& at) {
-  lanes.handedness[lane] = 0;
-  if (at.mesh == nullptr || at.mesh->tangents.empty()) return;
-  for (std::size_t corner = 0; corner < 3; ++corner)
-    put(lanes.tangents[corner], lane, Vec3(at.mesh->tangents[at.corners[corner]]));
-  lanes.handedness[lane] = at.mesh->tangents[at.corners[0]].w;
-  put(lanes.weights, lane, at.barycentrics);
+/// The first n of these lanes.
+Lanes first_of(Lanes lanes, int n) {
+  while (std::popcount(lanes) > n) lanes &= ~std::bit_floor(lanes);
+  return lanes;
 }
 
-void put_map(NormalMapLanes& lanes, int lane, const ShadingPoint& point, const TextureSlot& slot,
-             float scale) {
-  lanes.is_mapped[lane] = slot.map == nullptr ? 0.0F : 1.0F;
-  if (slot.map == nullptr) return;
-  put(lanes.texel, lane, Vec3(slot.at(point)));
-  lanes.scale[lane] = scale;
-}
-
-/// The weight of a path that crosses the surface. If a dispersive surface reduces the path to one
-/// channel, the weight is 3 for this channel and 0 for the others.
-Vec3 through_weight(const Vertex& vertex) {
-  if (vertex.path.channel == vertex.channel) return Vec3(1);
-  Vec3 weight(0);
-  weight[vertex.channel] = 3;
-  return weight;
+template <std::size_t n>
+void copy(LaneFloats (&to)[n], const LaneFloats (&from)[n]) {
+  std::memcpy(to, from, sizeof to);
 }
 
 }  // namespace
@@ -53,68 +42,110 @@ ScatterSetup scatter_setup(const WaveStep& step, const bsdf::Features& features)
 
 void VertexQueue::begin(const Lighting& lighting) {
   if (!lighting.can_sample()) std::memset(scatter_.light, 0, sizeof scatter_.light);
+  // The rays of all vertices end nowhere, because their hits are known.
+  std::ranges::fill(left_.t_max, std::numeric_limits<float>::infinity());
 }
 
-void VertexQueue::add(const Vertex& vertex, const bsdf::Parameters& parameters,
-                      const bsdf::Layers& layers) {
-  const int lane = count_++;
-  const ShadingPoint& point = vertex.point;
-  const PathState& path = vertex.path;
-  // Without a temporary object, which would be copied in larger pieces than it was written in.
-  PendingVertex& pending = pending_[static_cast<std::size_t>(lane)];
-  pending.ray = &vertex.ray;
-  pending.hit = vertex.hit;
-  pending.path = &path;
-  pending.width = point.width;
-  pending.channel = vertex.channel;
-  pending.absorption = vertex.absorption;
-  put(light_choices_.p, lane, point.at.p);
-  put_point(points_, lane, vertex.ray, point.at);
-  add_normal_maps(lane, point);
-  put(scatter_.d, lane, vertex.ray.d);
-  put(scatter_.outwards, lane, points_.side[lane] * point.at.n);
-  put(scatter_.throughput, lane, path.throughput);
-  scatter_.key[lane] = path.sobol.key();
-  scatter_.index[lane] = path.sobol.index();
-  put_surface(scatter_.surface, lane, parameters);
-  if (features_.index() == 0) return;
-  put_extensions(scatter_.surface, lane, parameters, layers);
-  put(scatter_.through_weight, lane, through_weight(vertex));
+Lanes VertexQueue::add(Lanes lanes, const Vertices& from) {
+  const Lanes added = first_of(lanes, kShadingLanes - count_);
+  const auto to = static_cast<std::size_t>(count_);
+  const auto& [group, paths, first] = from;
+  const HitLanes& hits = group.hits.lanes;
+  ColumnList of_paths, of_group;
+  of_paths.add(paths.throughput, scatter_.throughput);
+  of_paths.add(paths.absorption, absorptions_);
+  of_paths.add(paths.key, scatter_.key);
+  of_paths.add(paths.index, scatter_.index);
+  of_paths.add(paths.slot, slots_);
+  of_paths.add(paths.channel, channels_);
+  of_paths.add(paths.spread, spreads_);
+  of_paths.add(paths.t_min, left_.t_min);
+  of_paths.append(kernels_, {.lanes = added, .from = first, .to = to});
+
+  of_group.add(hits.o, left_.o);
+  of_group.add(hits.d, left_.d);
+  of_group.add(hits.corners[0], left_.a);
+  of_group.add(hits.corners[1], left_.b);
+  of_group.add(hits.corners[2], left_.c);
+  of_group.add(hits.p, choices_.points.p);
+  of_group.add(hits.n, points_.n);
+  of_group.add(hits.ns, points_.ns);
+  of_group.add(group.side, points_.side);
+  of_group.add(group.id, ids_);
+  of_group.add(group.on_mesh, on_mesh_);
+  of_group.add(group.width, widths_);
+  of_group.add(group.normals.is_mapped, normals_.is_mapped);
+  of_group.add(group.surface.base_color, scatter_.surface.base_color);
+  of_group.add(group.surface.metallic, scatter_.surface.metallic);
+  of_group.add(group.surface.roughness, scatter_.surface.roughness);
+  of_group.add(group.surface.f0, scatter_.surface.f0);
+  of_group.add(group.surface.f90, scatter_.surface.f90);
+  if ((group.mapped & added) != 0) {
+    for (int corner = 0; corner < 3; ++corner)
+      of_group.add(group.tangents[corner], points_.tangents[corner]);
+    of_group.add(group.handedness, points_.handedness);
+    of_group.add(hits.weights, points_.weights);
+    of_group.add(group.normals.texel, normals_.texel);
+    of_group.add(group.normals.scale, normals_.scale);
+  }
+  of_group.append(kernels_, {.lanes = added, .from = 0, .to = to});
+  if (features_.index() != 0) add_extensions(added, group);
+  count_ += std::popcount(added);
+  return lanes & ~added;
 }
 
-void VertexQueue::add_normal_maps(int lane, const ShadingPoint& point) {
-  const TexturedMaterial& look = *point.look;
-  const TextureSlot& base = look[MaterialTexture::normal];
-  const TextureSlot& coat = look[MaterialTexture::clearcoat_normal];
-  if (base.map != nullptr || coat.map != nullptr) put_tangents(points_, lane, point.at);
-  put_map(normals_, lane, point, base, look.material->normal_scale);
-  if (features_.layers != bsdf::LayerSide::none && look.material->clearcoat)
-    put_map(coat_normals_, lane, point, coat, look.material->clearcoat->normal_scale);
+void VertexQueue::add_extensions(Lanes lanes, const VertexGroup& group) {
+  const SurfaceLanes& from = group.surface;
+  SurfaceLanes& to = scatter_.surface;
+  ColumnList list;
+  list.add(from.transmission, to.transmission);
+  list.add(from.eta, to.eta);
+  list.add(from.diffuse_transmission, to.diffuse_transmission);
+  list.add(from.diffuse_transmission_color, to.diffuse_transmission_color);
+  list.add(from.anisotropy, to.anisotropy);
+  list.add(from.along, to.along);
+  list.add(from.film_share, to.film_share);
+  list.add(from.film_ior, to.film_ior);
+  list.add(from.film_thickness, to.film_thickness);
+  list.add(from.sheen, to.sheen);
+  list.add(from.sheen_roughness, to.sheen_roughness);
+  list.add(from.coat, to.coat);
+  list.add(from.coat_roughness, to.coat_roughness);
+  list.add(group.through_weight, scatter_.through_weight);
+  list.add(group.absorption, below_absorptions_);
+  list.add(group.channel, below_channels_);
+  list.add(group.coat_normals.is_mapped, coat_normals_.is_mapped);
+  list.add(group.coat_normals.texel, coat_normals_.texel);
+  list.add(group.coat_normals.scale, coat_normals_.scale);
+  list.append(kernels_, {.lanes = lanes, .from = 0, .to = static_cast<std::size_t>(count_)});
 }
 
 void VertexQueue::find_frames() {
+  copy(points_.d, left_.d);
+  copy(scatter_.d, left_.d);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int lane = 0; lane < kShadingLanes; ++lane)
+      scatter_.outwards[axis][lane] = points_.side[lane] * points_.n[axis][lane];
+  }
   kernels_.find_normals(points_, normals_);
-  std::memcpy(scatter_.frame_n, normals_.normal, sizeof scatter_.frame_n);
+  copy(scatter_.frame_n, normals_.normal);
   if (features_.layers == bsdf::LayerSide::none) return;
   kernels_.find_normals(points_, coat_normals_);
-  std::memcpy(scatter_.surface.coat_normal, coat_normals_.normal,
-              sizeof scatter_.surface.coat_normal);
+  copy(scatter_.surface.coat_normal, coat_normals_.normal);
 }
 
 void VertexQueue::sample_lights(const WaveStep& step, const Lighting& lighting) {
   alignas(64) LaneFloats unused;
+  auto& [points, triangles] = choices_;
   kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightPair),
-                        triangle_lights_.u[0], triangle_lights_.u[1]);
+                        triangles.u[0], triangles.u[1]);
   kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightChoicePair),
-                        light_choices_.choice, unused);
-  std::memcpy(light_choices_.n, scatter_.frame_n, sizeof light_choices_.n);
-  lighting.sample(kernels_, count_, light_choices_, triangle_lights_, lights_);
-  for (int lane = 0; lane < count_; ++lane) {
-    const LightSample& light = lights_[static_cast<std::size_t>(lane)];
-    put(scatter_.light_wi, lane, light.wi);
-    put(scatter_.light, lane, light.light);
-    scatter_.light_pdf[lane] = light.pdf;
-  }
+                        points.choice, unused);
+  copy(points.n, scatter_.frame_n);
+  lighting.sample(kernels_, count_, choices_, lights_);
+  copy(scatter_.light_wi, lights_.wi);
+  copy(scatter_.light, lights_.light);
+  std::memcpy(scatter_.light_pdf, lights_.pdf, sizeof lights_.pdf);
 }
 
 void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing) {
@@ -122,52 +153,101 @@ void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Outgoin
   find_frames();
   if (lighting.can_sample()) sample_lights(step, lighting);
   kernels_.scatter(scatter_setup(step, features_), scatter_);
-  for (int lane = 0; lane < count_; ++lane) {
-    const auto i = static_cast<std::size_t>(lane);
-    if (const Vec3 color = got(scatter_.shadow, lane); color != Vec3(0)) {
-      outgoing.add_shadow(*pending_[i].ray, pending_[i].hit, lights_[i], color,
-                          pending_[i].path->slot);
-    }
-    if (scatter_.pdf[lane] > 0) continue_path(lane, step, outgoing);
+  const Lanes vertices = (Lanes{1} << count_) - 1;
+  const auto& shadow = scatter_.shadow;
+  const Lanes lit =
+      vertices & lanes_where([&](int lane) {
+        return (shadow[0][lane] != 0) | (shadow[1][lane] != 0) | (shadow[2][lane] != 0);
+      });
+  const Lanes next = vertices & lanes_where([&](int lane) { return scatter_.pdf[lane] > 0; });
+  if ((lit | next) != 0) {
+    const Lanes on_meshes = lanes_where([&](int lane) { return on_mesh_[lane] != 0; });
+    outgoing.tracer.set_hits(std::span(ids_).first(static_cast<std::size_t>(count_)),
+                             on_meshes & vertices, left_);
+    if (lit != 0) cast_shadows(lit, outgoing);
+    if (next != 0) continue_paths(next, step, outgoing);
   }
   count_ = 0;
 }
 
-void VertexQueue::continue_path(int lane, const WaveStep& step, OutgoingRays& outgoing) const {
-  const PendingVertex& vertex = pending_[static_cast<std::size_t>(lane)];
-  const float pdf = scatter_.pdf[lane];
-  PathState& next = outgoing.add_path(*vertex.ray, vertex.hit, got(scatter_.wi, lane));
-  next = *vertex.path;
-  next.throughput = got(scatter_.next_throughput, lane);
-  next.pdf = pdf;
-  next.from.p = got(light_choices_.p, lane);
-  next.from.n = got(scatter_.frame_n, lane);
-  next.begin = vertex.width;
-  next.spread += step.spread(pdf);
-  if (!features_.transmits || scatter_.is_below[lane] == 0) return;
-  next.channel = vertex.channel;
-  next.absorption = vertex.absorption;
+void VertexQueue::cast_shadows(Lanes lanes, OutgoingRays& outgoing) {
+  copy(origins_.direction, lights_.to_light);
+  const Lanes found = outgoing.tracer.leave(lanes, origins_);
+  outgoing.shadows.add(kernels_, found,
+                       {.rays = origins_,
+                        .left = ids_,
+                        .slots = slots_,
+                        .samples = lights_,
+                        .light = scatter_.shadow});
 }
 
-VertexQueues::VertexQueues() : kernels_(kShadingKernels.best()) {}
+void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays& outgoing) {
+  copy(origins_.direction, scatter_.wi);
+  const Lanes found = outgoing.tracer.leave(lanes, origins_);
+  for (int lane = 0; lane < kShadingLanes; ++lane)
+    spreads_[lane] += (found >> lane & 1U) != 0 ? step.spread(scatter_.pdf[lane]) : 0;
+  if (features_.transmits) {
+    for (int lane = 0; lane < kShadingLanes; ++lane) {
+      if (scatter_.is_below[lane] == 0) continue;
+      channels_[lane] = below_channels_[lane];
+      for (int c = 0; c < 3; ++c) absorptions_[c][lane] = below_absorptions_[c][lane];
+    }
+  }
+  PathColumns& paths = outgoing.paths;
+  ColumnList list;
+  list.add(origins_.origin, paths.o);
+  list.add(origins_.direction, paths.d);
+  list.add(ids_, paths.left);
+  list.add(scatter_.key, paths.key);
+  list.add(scatter_.index, paths.index);
+  list.add(slots_, paths.slot);
+  list.add(scatter_.next_throughput, paths.throughput);
+  list.add(scatter_.pdf, paths.pdf);
+  list.add(choices_.points.p, paths.from_p);
+  list.add(scatter_.frame_n, paths.from_n);
+  list.add(absorptions_, paths.absorption);
+  list.add(channels_, paths.channel);
+  list.add(widths_, paths.begin);
+  list.add(spreads_, paths.spread);
+  list.append(kernels_, {.lanes = found, .from = 0, .to = outgoing.count});
+  outgoing.count += static_cast<std::size_t>(std::popcount(found));
+}
 
-void VertexQueues::begin(const Shading& shading, const Lighting& lighting) {
-  shading_ = &shading;
+VertexQueues::VertexQueues()
+    : kernels_(kShadingKernels.best()), group_(std::make_unique<VertexGroup>()) {}
+
+void VertexQueues::begin(const Lighting& lighting) {
   lighting_ = &lighting;
+  // Materials of a previous scene may have had the same addresses.
+  group_->surface_of.fill(nullptr);
   for (const auto& queue : queues_) {
     if (queue) queue->begin(lighting);
   }
 }
 
-void VertexQueues::add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing) {
-  const BsdfInput& input = shading_->bsdf_input(vertex.point, vertex.channel, varying_);
-  std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(input.features.index())];
-  if (!queue) {
-    queue = std::make_unique<VertexQueue>(input.features, kernels_);
-    queue->begin(*lighting_);
+void VertexQueues::add(const WaveStep& step, const PathColumns& paths, std::size_t first,
+                       OutgoingRays& outgoing) {
+  for (Lanes rest = group_->vertices; rest != 0;) {
+    const auto some = static_cast<std::size_t>(std::countr_zero(rest));
+    const bsdf::Features& features = group_->features[some];
+    const int index = features.index();
+    Lanes lanes = 0;  // those with the same features
+    for (Lanes others = rest; others != 0; others &= others - 1) {
+      const int lane = std::countr_zero(others);
+      if (group_->features[static_cast<std::size_t>(lane)].index() == index)
+        lanes |= Lanes{1} << lane;
+    }
+    rest &= ~lanes;
+    std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(index)];
+    if (!queue) {
+      queue = std::make_unique<VertexQueue>(features, kernels_);
+      queue->begin(*lighting_);
+    }
+    while (lanes != 0) {
+      lanes = queue->add(lanes, {.group = *group_, .paths = paths, .first = first});
+      if (queue->is_full()) queue->finish(step, *lighting_, outgoing);
+    }
   }
-  queue->add(vertex, input.parameters, input.layers);
-  if (queue->is_full()) queue->finish(step, *lighting_, outgoing);
 }
 
 void VertexQueues::finish(const WaveStep& step, OutgoingRays& outgoing) {

@@ -2,34 +2,29 @@
 /// Queues of path vertices. The shading kernels process sixteen vertices of the same kind at a
 /// time.
 
-#include "render/bsdf/parameters.hpp"
-#include "render/integrators/outgoing_rays.hpp"
+#include "accel/ray_tracer.hpp"
 #include "render/integrators/path_state.hpp"
+#include "render/integrators/shadow_rays.hpp"
+#include "render/integrators/vertex_group.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/lights/lighting.hpp"
-#include "render/shading/shading.hpp"
-
-#include <microtrace/hit.hpp>
-#include <microtrace/ray.hpp>
 
 #include <array>
+#include <cstddef>
 #include <memory>
-#include <optional>
 
 namespace microtrace {
 
-/// A path vertex whose light and next direction are to be sampled.
-struct Vertex {
-  const Ray& ray;
-  const Hit& hit;
-  const ShadingPoint& point;
-  const PathState& path;
-  int channel;      ///< color channel for refraction by a dispersive surface; 3 for all channels
-  Vec3 absorption;  ///< absorption below the surface
-};
-
 /// The kernel parameters that all paths of a bounce share.
 [[nodiscard]] ScatterSetup scatter_setup(const WaveStep& step, const bsdf::Features& features);
+
+/// Where the rays that leave vertices go.
+struct OutgoingRays {
+  RayTracer& tracer;
+  ShadowRays& shadows;
+  PathColumns& paths;
+  std::size_t count = 0;  ///< number of paths
+};
 
 /// A queue of vertices on surfaces with the same features.
 class VertexQueue {
@@ -40,8 +35,14 @@ class VertexQueue {
   /// Clears the light samples of the previous scene if this lighting samples no lights.
   void begin(const Lighting& lighting);
 
-  /// Adds a vertex. Its ray and path must remain valid until the bounce is finished.
-  void add(const Vertex& vertex, const bsdf::Parameters& parameters, const bsdf::Layers& layers);
+  /// Vertices of a group, and their paths from the path `first` on.
+  struct Vertices {
+    const VertexGroup& group;
+    const PathColumns& paths;
+    std::size_t first;
+  };
+  /// Adds the vertices in these lanes. Returns the lanes for which there was no space.
+  [[nodiscard]] Lanes add(Lanes lanes, const Vertices& from);
 
   [[nodiscard]] bool is_full() const { return count_ == kShadingLanes; }
 
@@ -49,31 +50,27 @@ class VertexQueue {
   void finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing);
 
  private:
-  /// The data of a vertex that are needed to continue its path.
-  struct PendingVertex {
-    const Ray* ray;
-    Hit hit;
-    const PathState* path;
-    float width;
-    int channel;
-    Vec3 absorption;  ///< absorption below the surface
-  };
-
-  void add_normal_maps(int lane, const ShadingPoint& point);
+  /// Adds the values that only surfaces with features have.
+  void add_extensions(Lanes lanes, const VertexGroup& group);
   void find_frames();
   void sample_lights(const WaveStep& step, const Lighting& lighting);
-  void continue_path(int lane, const WaveStep& step, OutgoingRays& outgoing) const;
+  /// Adds shadow rays for the given lanes.
+  void cast_shadows(Lanes lanes, OutgoingRays& outgoing);
+  /// Adds the next rays of the paths in the given lanes.
+  void continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays& outgoing);
 
   bsdf::Features features_;
   const ShadingKernels& kernels_;
   int count_ = 0;
-  std::array<PendingVertex, kShadingLanes> pending_{};
-  LightChoices<kShadingLanes> light_choices_{};
-  TriangleLights<kShadingLanes> triangle_lights_{};
-  std::array<LightSample, kShadingLanes> lights_{};
+  HitPointLanes left_{};
+  LaneNumbers ids_{}, on_mesh_{}, slots_{}, channels_{}, below_channels_{};
+  LaneFloats widths_{}, spreads_{}, absorptions_[3]{}, below_absorptions_[3]{};
+  Lighting::Choices choices_{};
+  LightSamples<kShadingLanes> lights_{};
   NormalLanes points_{};
   NormalMapLanes normals_{}, coat_normals_{};
   ScatterLanes scatter_{};
+  OriginLanes origins_{};
 };
 
 /// The queues of all kinds of vertices.
@@ -81,18 +78,20 @@ class VertexQueues {
  public:
   VertexQueues();
 
-  void begin(const Shading& shading, const Lighting& lighting);
-  void add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing);
+  void begin(const Lighting& lighting);
+  /// The group from which add() takes vertices.
+  [[nodiscard]] VertexGroup& group() { return *group_; }
+  /// Adds the vertices of the group, those of the paths from `first` on.
+  void add(const WaveStep& step, const PathColumns& paths, std::size_t first,
+           OutgoingRays& outgoing);
   /// Processes the remaining vertices of the bounce.
   void finish(const WaveStep& step, OutgoingRays& outgoing);
 
  private:
   const ShadingKernels& kernels_;
-  const Shading* shading_ = nullptr;
   const Lighting* lighting_ = nullptr;
+  std::unique_ptr<VertexGroup> group_;
   std::array<std::unique_ptr<VertexQueue>, bsdf::Features::kCount> queues_;  // by Features::index()
-  // The input of a vertex with textures. A local variable would be cleared for each vertex.
-  std::optional<BsdfInput> varying_;
 };
 
 }  // namespace microtrace

@@ -1,13 +1,17 @@
 #include "render/integrators/wave.hpp"
 
 #include "render/bsdf/frame.hpp"
+#include "render/bsdf/put_surface.hpp"
 #include "render/kernels/dispatch.hpp"
 #include "render/shading/beer_lambert.hpp"
 #include "render/shading/footprint.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -30,21 +34,55 @@ class RayTimer {
 
 }  // namespace
 
-Wave::Wave() : kernels_(&kShadingKernels.best()) {}
+Wave::Wave()
+    : kernels_(&kShadingKernels.best()),
+      paths_(std::make_unique<PathColumns>()),
+      next_paths_(std::make_unique<PathColumns>()) {}
 
 void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids) {
   world_ = &world;
   shading_ = world.shading;
   lighting_ = world.lighting;
   step_ = {.sample_width = 1 / std::sqrt(static_cast<float>(world.samples))};
-  vertices_.begin(*shading_, *lighting_);
+  vertices_.begin(*lighting_);
+  tracer_.begin(world.bvh);
   count_ = rays.size();
+  PathColumns& paths = *paths_;
   for (std::size_t i = 0; i < count_; ++i) {
-    rays_[i] = rays[i];
-    paths_[i] = {.sobol = sampling::Sobol(ids[i].key, ids[i].index), .slot = i};
+    put_vector(paths.o, i, rays[i].o);
+    put_vector(paths.d, i, rays[i].d);
+    paths.t_min[i] = rays[i].t_min;
+    paths.t_max[i] = rays[i].t_max;
+    const sampling::Sobol sobol(ids[i].key, ids[i].index);
+    paths.key[i] = sobol.key();
+    paths.index[i] = sobol.index();
+    paths.slot[i] = static_cast<std::uint32_t>(i);
+    paths.channel[i] = 3;
     colors_[i] = Vec3(0);
     alphas_[i] = 0;
   }
+  for (int c = 0; c < 3; ++c) {
+    std::fill_n(paths.throughput[c], count_, 1.0F);
+    std::fill_n(paths.absorption[c], count_, 0.0F);
+  }
+  std::fill_n(paths.pdf, count_, 0.0F);
+}
+
+void Wave::intersect(std::span<const Ray> camera_rays) {
+  const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
+  if (step_.depth > 1) {
+    const PathColumns& paths = *paths_;
+    tracer_.closest({.o = {paths.o[0], paths.o[1], paths.o[2]},
+                     .d = {paths.d[0], paths.d[1], paths.d[2]},
+                     .t_max = paths.t_max,
+                     .left = paths.left,
+                     .count = count_},
+                    std::span(hits_).first(count_));
+    return;
+  }
+  world_->bvh.intersect(camera_rays, std::span(camera_hits_).first(count_));
+  for (std::size_t i = 0; i < count_; ++i)
+    hits_[i] = camera_hits_[i] ? camera_hits_[i]->id : kNoPrimitive;
 }
 
 void Wave::trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
@@ -53,16 +91,11 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
   options_ = options;
   ground_ = find_ground();
   for (; count_ > 0; ++step_.depth) {
-    {
-      const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
-      world_->bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_),
-                            std::span(left_).first(step_.depth == 1 ? 0 : count_));
-    }
+    intersect(rays);
     step();
-    count_ = outgoing_.spawn_origins(world_->bvh, shadow_rays_,
-                                     {.rays = rays_, .left = left_, .states = paths_});
     const RayTimer timer(counts_.shadow, shadow_rays_.count() + ground_shadows_.count());
-    counts_.beyond += shadow_rays_.trace(world_->bvh, *shading_, options_.backfaces, colors_);
+    counts_.beyond +=
+        shadow_rays_.trace(tracer_, world_->bvh, *shading_, options_.backfaces, colors_);
     if (ground_shadows_.count() == 0) continue;
     counts_.beyond += ground_shadows_.trace(
         world_->bvh, *shading_, options_.backfaces,
@@ -73,80 +106,112 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
 }
 
 void Wave::step() {
-  std::array<ShadingPoint, kShadingLanes> points;
+  OutgoingRays outgoing{.tracer = tracer_, .shadows = shadow_rays_, .paths = *next_paths_};
   for (std::size_t first = 0; first < count_; first += kShadingLanes) {
-    const std::size_t size = std::min<std::size_t>(count_ - first, kShadingLanes);
-    shading_->points(*kernels_, std::span(rays_).subspan(first, size),
-                     std::span(hits_).subspan(first, size), hit_lanes_, points);
-    for (std::size_t i = 0; i < size; ++i) {
-      if (hits_[first + i]) prepare(first + i, points[i]);
-    }
-    for (std::size_t i = 0; i < size; ++i) step(first + i, points[i]);
+    step(first);
+    vertices_.add(step_, *paths_, first, outgoing);
   }
-  vertices_.finish(step_, outgoing_);
+  vertices_.finish(step_, outgoing);
+  count_ = outgoing.count;
+  std::fill_n(next_paths_->t_min, count_, 0.0F);
+  std::fill_n(next_paths_->t_max, count_, std::numeric_limits<float>::infinity());
+  std::swap(paths_, next_paths_);
 }
 
-void Wave::escape(const Ray& ray, const PathState& path) {
-  const Vec3 wi = unit<1>(ray.d);
-  if (path.pdf > 0) {
-    const EnvironmentLight::Lookup light = lighting_->environment(path.from, wi);
-    colors_[path.slot] += path.throughput * light.radiance * power_heuristic(path.pdf, light.pdf);
-  } else if (lighting_->is_seen()) {  // otherwise the background is composited later
-    colors_[path.slot] += path.throughput * lighting_->environment(wi);
-    alphas_[path.slot] = 1;
+void Wave::step(std::size_t first) {
+  VertexGroup& group = vertices_.group();
+  HitGroup& hits = group.hits;
+  const auto ids = std::span(hits_).subspan(first).first<kShadingLanes>();
+  const std::size_t size = std::min<std::size_t>(count_ - first, kShadingLanes);
+  hits.hit = 0;
+  for (std::size_t lane = 0; lane < size; ++lane)
+    hits.hit |= Lanes{ids[lane] != kNoPrimitive} << lane;
+  for (Lanes missed = ((Lanes{1} << size) - 1) & ~hits.hit; missed != 0; missed &= missed - 1)
+    escape(first + static_cast<std::size_t>(std::countr_zero(missed)));
+  group.vertices = group.mapped = 0;
+  if (hits.hit == 0) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::copy_n(paths_->o[axis] + first, kShadingLanes, hits.lanes.o[axis]);
+    std::copy_n(paths_->d[axis] + first, kShadingLanes, hits.lanes.d[axis]);
   }
-  if (ground_ && path.pdf == 0) meet_ground(ray, path);
+  std::ranges::copy(ids, group.id);
+  if (step_.depth == 1 && shading_->has_textures()) widen(first);
+  shading_->find_points(*kernels_, ids, hits);
+  const Lanes simple = add_simple(first);
+  for (Lanes rest = hits.hit & ~simple; rest != 0; rest &= rest - 1)
+    step_slowly(first, std::countr_zero(rest));
 }
 
-std::optional<float> Wave::find_ground() const {
-  if (!options_.ground) return std::nullopt;
-  if (const std::optional<double>& height = options_.ground->height)
-    return static_cast<float>(*height - world_->scene.origin.y);
-  const std::optional<double>& lowest = lighting_->ground(world_->scene).lowest();
-  return lowest ? std::optional(static_cast<float>(*lowest)) : std::nullopt;
+void Wave::widen(std::size_t first) {
+  PathColumns& paths = *paths_;
+  for (Lanes rest = vertices_.group().hits.hit; rest != 0; rest &= rest - 1) {
+    const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(rest));
+    const Footprint footprint = camera_footprint(world_->camera, paths.ray(i), step_.sample_width);
+    paths.begin[i] = footprint.begin;
+    paths.spread[i] = footprint.spread;
+  }
 }
 
-void Wave::meet_ground(const Ray& ray, const PathState& path) {
-  const std::optional<Vec3> p = point_on_ground(ray, *ground_);
-  if (!p) return;
-  const float choice = path.sobol.pair(step_.pair(sampling::kLightChoicePair)).x;
-  const Vec2 u = path.sobol.pair(step_.pair(sampling::kLightPair));
-  if (const auto light = lighting_->ground(world_->scene).sample(*p, choice, u))
-    ground_shadows_.add(*p, light->to_light, light->is_far, path.slot);
+Lanes Wave::add_simple(std::size_t first) {
+  if (step_.depth >= options_.max_depth) return 0;
+  VertexGroup& group = vertices_.group();
+  const PathColumns& paths = *paths_;
+  const HitLanes& hits = group.hits.lanes;
+  const bool looks_behind = this->looks_behind();
+  Lanes simple = 0;
+  for (Lanes rest = group.hits.sure; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    const auto k = static_cast<std::size_t>(lane);
+    const TexturedMaterial& look = *group.hits.looks[k];
+    const bool is_front = hits.from_behind[lane] == 0;
+    if (!look.is_simple || !group.hits.meshes[k]->colors.empty() ||
+        (is_front ? looks_behind && look.has_open_back : !look.has_back) ||
+        vector_of(paths.absorption, first + k) != Vec3(0))
+      continue;
+    simple |= Lanes{1} << lane;
+    group.side[lane] = is_front ? 1.0F : -1.0F;
+    group.features[k] = look.constant->features;
+    if (group.surface_of[k] == &look) continue;
+    group.surface_of[k] = &look;
+    put_surface(group.surface, lane, look.constant->parameters);
+    if (look.constant->features.index() != 0)
+      put_extensions(group.surface, lane, look.constant->parameters, look.constant->layers);
+  }
+  for (int lane = 0; lane < kShadingLanes; ++lane) {
+    const std::size_t i = first + static_cast<std::size_t>(lane);
+    group.width[lane] = paths.begin[i] + paths.spread[i] * hits.distance[lane];
+    group.on_mesh[lane] = 1;
+    group.normals.is_mapped[lane] = group.coat_normals.is_mapped[lane] = 0;
+    for (auto& weights : group.through_weight) weights[lane] = 1;
+    for (int c = 0; c < 3; ++c) group.absorption[c][lane] = 0;
+    group.channel[lane] = paths.channel[i];
+  }
+  if (step_.depth == 1) {
+    for (Lanes rest = simple; rest != 0; rest &= rest - 1)
+      alphas_[paths.slot[first + static_cast<std::size_t>(std::countr_zero(rest))]] = 1;
+  }
+  group.vertices = simple;
+  return simple;
 }
 
-void Wave::darken(std::size_t slot, float occlusion) {
-  if (lighting_->is_seen())
-    colors_[slot] *= 1 - occlusion;
-  else
-    alphas_[slot] = occlusion;
-}
-
-void Wave::widen(const Ray& ray, PathState& path) const {
-  const Footprint footprint = camera_footprint(world_->camera, ray, step_.sample_width);
-  path.begin = footprint.begin;
-  path.spread = footprint.spread;
-}
-
-void Wave::prepare(std::size_t i, ShadingPoint& point) {
-  PathState& path = paths_[i];
-  if (step_.depth == 1) widen(rays_[i], path);
-  point.width = path.begin + path.spread * point.at.distance;
+void Wave::prepare(std::size_t i, ShadingPoint& point) const {
+  point.width = paths_->begin[i] + paths_->spread[i] * point.at.distance;
   Shading::find_texel_address(point);
 }
 
-bool Wave::stops(const PathState& path, const ShadingPoint& point, std::uint32_t layer) const {
-  const float coverage = shading_->coverage(point, path.pdf == 0);
+bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t layer) const {
+  const float coverage = shading_->coverage(point, paths_->pdf[i] == 0);
   if (coverage == 0 || coverage == 1) return coverage == 1;
-  return path.sobol.one(step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs) <
+  return paths_->sobol(i).one(step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs) <
          coverage;
 }
 
 std::optional<Hit> Wave::next(std::size_t i, const Hit& hit, ShadingPoint& point) {
   ++counts_.beyond;
-  const std::optional<Hit> result = world_->bvh.next(rays_[i], hit);
+  const Ray ray = paths_->ray(i);
+  const std::optional<Hit> result = world_->bvh.next(ray, hit);
   if (!result) return result;
-  point = shading_->point(rays_[i], *result);
+  point = shading_->point(ray, *result);
   prepare(i, point);
   return result;
 }
@@ -158,54 +223,77 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
     do {
       hit = next(i, *hit, point);
       ++layer;
-      if (!hit) return {.is_open = lighting_->environment(unit<1>(rays_[i].d)) != Vec3(0)};
-    } while (!stops(paths_[i], point, layer));
+      if (!hit)
+        return {.is_open = lighting_->environment(unit<1>(vector_of(paths_->d, i))) != Vec3(0)};
+    } while (!stops(i, point, layer));
   }
   if (!point.look->shines() || shading_->emission(point) == Vec3(0)) return {};
   return {.hit = hit, .point = point};
 }
 
-void Wave::step(std::size_t i, ShadingPoint& point) {
-  const Ray& ray = rays_[i];
-  PathState& path = paths_[i];
-  std::optional<Hit> hit = hits_[i];
-  const bool from_camera = path.pdf == 0;
+void Wave::step_slowly(std::size_t first, int lane) {
+  const std::size_t i = first + static_cast<std::size_t>(lane);
+  PathColumns& paths = *paths_;
+  const HitGroup& hits = vertices_.group().hits;
+  const Ray ray = paths.ray(i);
+  const bool from_camera = paths.pdf[i] == 0;
+  // The parameter t is needed only where find_points() is not sure.
+  const bool is_sure = (hits.sure >> lane & 1U) != 0;
+  std::optional<Hit> hit = from_camera ? *camera_hits_[i]
+                           : is_sure   ? Hit{.id = hits_[i], .t = 0}
+                                       : tracer_.hit(ray, hits_[i]);
+  ShadingPoint point = shading_->point(hits, lane, ray, *hit);
+  prepare(i, point);
   std::uint32_t layer = 0;
-  for (; hit && !stops(path, point, layer); ++layer) hit = next(i, *hit, point);
-  if (!hit) return escape(ray, path);
-  if (!from_camera && options_.backfaces == Backfaces::pass && Shading::lets_light_in(point) &&
-      lighting_->may_surround()) {
+  for (; hit && !stops(i, point, layer); ++layer) hit = next(i, *hit, point);
+  if (!hit) return escape(i);
+  if (looks_behind() && Shading::lets_light_in(point)) {
     const Behind behind = look_behind(i, *hit, point, layer);
-    if (behind.is_open) return escape(ray, path);
+    if (behind.is_open) return escape(i);
     if (behind.hit) hit = behind.hit, point = behind.point;
   }
-  if (path.absorption != Vec3(0))
-    path.throughput *= beer_lambert(path.absorption, point.at.distance);
-  if (from_camera) alphas_[path.slot] = 1;
-  if (const Vec3 emission = shading_->emission(point); emission != Vec3(0)) {
-    const Vec3 d = unit<1>(ray.d);
-    const float cosine = std::abs(glm::dot(d, point.at.n));
-    const float other = lighting_->emitter_pdf(hit->id, path.from, point.at.distance, cosine);
-    const float weight = from_camera ? 1 : power_heuristic(path.pdf, other);
-    colors_[path.slot] += path.throughput * emission * weight;
+  if (const Vec3 absorption = vector_of(paths.absorption, i); absorption != Vec3(0)) {
+    put_vector(paths.throughput, i,
+               vector_of(paths.throughput, i) * beer_lambert(absorption, point.at.distance));
   }
-  if (step_.depth >= options_.max_depth || point.look->material->unlit) return;
-  const Material& material = *point.look->material;
-  const Vertex vertex{
-      .ray = ray,
-      .hit = *hit,
-      .point = point,
-      .path = path,
-      .channel = channel_of(material, path),
-      .absorption = encloses_medium(material) ? shading_->absorption(point) : path.absorption};
-  vertices_.add(step_, vertex, outgoing_);
+  if (from_camera) alphas_[paths.slot[i]] = 1;
+  add_emission(i, *hit, point);
+  if (step_.depth < options_.max_depth && !point.look->material->unlit)
+    put_vertex(i, lane, *hit, point);
 }
 
-int Wave::channel_of(const Material& material, const PathState& path) const {
-  if (path.channel < 3 || material.dispersion == 0 || !encloses_medium(material))
-    return path.channel;
-  return std::min(static_cast<int>(3 * path.sobol.pair(step_.pair(sampling::kLightChoicePair)).y),
-                  2);
+int Wave::channel_of(const Material& material, std::size_t i) const {
+  const auto channel = static_cast<int>(paths_->channel[i]);
+  if (channel < 3 || material.dispersion == 0 || !encloses_medium(material)) return channel;
+  const float u = paths_->sobol(i).pair(step_.pair(sampling::kLightChoicePair)).y;
+  return std::min(static_cast<int>(3 * u), 2);
+}
+
+void Wave::put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoint& point) {
+  VertexGroup& group = vertices_.group();
+  const auto k = static_cast<std::size_t>(lane);
+  const Material& material = *point.look->material;
+  const int channel = channel_of(material, i);
+  const BsdfInput& input = shading_->bsdf_input(point, channel, varying_);
+  group.vertices |= Lanes{1} << lane;
+  group.features[k] = input.features;
+  group.id[lane] = hit.id;
+  put_point(group, lane, point);
+  group.surface_of[k] = nullptr;
+  put_surface(group.surface, lane, input.parameters);
+  if (input.features.index() == 0) return;
+  put_extensions(group.surface, lane, input.parameters, input.layers);
+  const auto path_channel = static_cast<int>(paths_->channel[i]);
+  Vec3 through(1);
+  if (path_channel != channel) {
+    // A dispersive surface reduces the path to one channel.
+    through = Vec3(0);
+    through[channel] = 3;
+  }
+  put(group.through_weight, lane, through);
+  group.channel[lane] = static_cast<std::uint32_t>(channel);
+  put(group.absorption, lane,
+      encloses_medium(material) ? shading_->absorption(point) : vector_of(paths_->absorption, i));
 }
 
 }  // namespace microtrace

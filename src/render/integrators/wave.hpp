@@ -1,8 +1,8 @@
 #pragma once
 /// A wavefront of paths that advance one bounce at a time, so that rays are traced in batches.
 
+#include "accel/ray_tracer.hpp"
 #include "render/ground/ground_shadows.hpp"
-#include "render/integrators/outgoing_rays.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/shadow_rays.hpp"
 #include "render/integrators/vertex_queue.hpp"
@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -36,12 +37,27 @@ class Wave {
 
  private:
   void begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids);
+  /// Finds the hits of all rays.
+  void intersect(std::span<const Ray> camera_rays);
+  /// Advances all paths by one bounce.
+  void step();
+  /// Advances the paths from `first` on, up to kShadingLanes, by one bounce.
+  void step(std::size_t first);
+  /// Sets the footprints of the camera paths from `first` on that hit something.
+  void widen(std::size_t first);
+  /// Sets the vertices of the group's lanes whose surfaces need no further tests. Returns these
+  /// lanes.
+  [[nodiscard]] Lanes add_simple(std::size_t first);
+  /// Advances the path in a lane, which needs further tests.
+  void step_slowly(std::size_t first, int lane);
+  /// Sets the vertex of a lane.
+  void put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoint& point);
+
   /// Sets the footprint and the texel address of a point on path i.
-  void prepare(std::size_t i, ShadingPoint& point);
-  /// True if the path's current segment ends at the point. This is a random choice if the point is
-  /// partially opaque.
-  [[nodiscard]] bool stops(const PathState& path, const ShadingPoint& point,
-                           std::uint32_t layer) const;
+  void prepare(std::size_t i, ShadingPoint& point) const;
+  /// True if the current segment of path i ends at the point. This is a random choice if the point
+  /// is partially opaque.
+  [[nodiscard]] bool stops(std::size_t i, const ShadingPoint& point, std::uint32_t layer) const;
   /// Finds the next hit of path i behind `hit`, and sets `point` to its shading point.
   [[nodiscard]] std::optional<Hit> next(std::size_t i, const Hit& hit, ShadingPoint& point);
   /// The source of the light that arrives from behind through surfaces whose backs pass light.
@@ -55,22 +71,23 @@ class Wave {
   /// empty if no light arrives.
   [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
                                    std::uint32_t layer);
-  /// Advances path i by one bounce. `point` is the shading point of its ray's hit, if any.
-  void step(std::size_t i, ShadingPoint& point);
-  /// Advances all paths by one bounce.
-  void step();
-  /// Sets the footprint of a camera path.
-  void widen(const Ray& ray, PathState& path) const;
-  void escape(const Ray& ray, const PathState& path);
+  /// Adds the light that the surface emits toward path i.
+  void add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point);
+  /// Adds the light of the environment that path i reaches.
+  void escape(std::size_t i);
   /// Finds the y coordinate of the ground, if there is one, in scene coordinates.
   [[nodiscard]] std::optional<float> find_ground() const;
-  /// Samples the light at the point where the ray meets the ground, if it does.
-  void meet_ground(const Ray& ray, const PathState& path);
+  /// Samples the light at the point where the ray of path i meets the ground, if it does.
+  void meet_ground(std::size_t i);
   /// Darkens a camera ray's sample by the occluded fraction of the ground's light.
   void darken(std::size_t slot, float occlusion);
-  /// The color channel with which a path continues through the surface. At a dispersive surface, a
+  /// The color channel with which path i continues through the surface. At a dispersive surface, a
   /// path with all channels chooses one at random.
-  [[nodiscard]] int channel_of(const Material& material, const PathState& path) const;
+  [[nodiscard]] int channel_of(const Material& material, std::size_t i) const;
+  /// True if paths look behind the fronts of one-sided surfaces.
+  [[nodiscard]] bool looks_behind() const {
+    return step_.depth > 1 && options_.backfaces == Backfaces::pass && lighting_->may_surround();
+  }
 
   // The state of the current batch.
   RayCounts counts_{};
@@ -80,20 +97,20 @@ class Wave {
   WaveStep step_;
   PathOptions options_;
   VertexQueues vertices_;
-  OutgoingRays outgoing_;
+  RayTracer tracer_;
   ShadowRays shadow_rays_;
   std::optional<float> ground_;
   GroundShadows ground_shadows_;
   const ShadingKernels* kernels_;
-  HitLanes hit_lanes_{};
   std::size_t count_ = 0;
-  std::array<Ray, kRandomBatch> rays_;
-  // The primitives that the rays leave; not set for camera rays.
-  std::array<PrimitiveId, kRandomBatch> left_;
-  std::array<PathState, kRandomBatch> paths_;
-  std::array<std::optional<Hit>, kRandomBatch> hits_;
+  // The paths of this bounce, and those of the next one.
+  std::unique_ptr<PathColumns> paths_, next_paths_;
+  std::array<PrimitiveId, kRandomBatch> hits_;  // kNoPrimitive for rays without a hit
+  std::array<std::optional<Hit>, kRandomBatch> camera_hits_;
   std::array<Vec3, kRandomBatch> colors_;
   std::array<float, kRandomBatch> alphas_;
+  // The input of a BSDF with textures. A local variable would be cleared for each vertex.
+  std::optional<BsdfInput> varying_;
 };
 
 }  // namespace microtrace

@@ -1,3 +1,4 @@
+#include "render/kernels/append.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
@@ -7,6 +8,7 @@
 
 namespace microtrace {
 const ShadingKernels kAvx2Shading{"avx2",
+                                  append<8>,
                                   random_pairs<8>,
                                   find_points<8, kShadingLanes>,
                                   find_normals<8>,

@@ -1,3 +1,4 @@
+#include "render/kernels/append.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
@@ -7,6 +8,7 @@
 
 namespace microtrace {
 const ShadingKernels kAvx512Shading{"avx512",
+                                    append<16>,
                                     random_pairs<16>,
                                     find_points<16, kShadingLanes>,
                                     find_normals<16>,

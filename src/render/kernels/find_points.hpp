@@ -6,8 +6,14 @@
 
 namespace microtrace {
 
+/// The sum of the magnitudes of the components.
+template <int N>
+Double<N> magnitudes_sum(const Doubles3<N>& v) {
+  return magnitude(Double<N>(v.x)) + magnitude(Double<N>(v.y)) + magnitude(Double<N>(v.z));
+}
+
 /// Computes the points of the N paths that start at lane i. Intersects the rays with the planes of
-/// the triangles in float64, because Hit::t is rounded to float32.
+/// the triangles in float64.
 template <int N, int width>
 void intersect_planes(HitArrays<width>& hits, int i) {
   using D = Double<N>;
@@ -18,9 +24,12 @@ void intersect_planes(HitArrays<width>& hits, int i) {
   const V e1 = widened3<N>(hits.corners[1], i) - a, e2 = widened3<N>(hits.corners[2], i) - a;
   const V n = cross(e1, e2);
   const D square = dot(n, n), slope = dot(n, d);
-  const D t = dot(a - o, n) / slope, hit_t = widened<N>(hits.t + i);
-  // The test fails if the triangle is edge-on or has no area.
-  const auto is_sure = (square > 0) & (magnitude(D(t - hit_t)) <= 0x1p-20 * hit_t);
+  const D t = dot(a - o, n) / slope;
+  // Each term of `slope` has at most six roundings and is at most the product of the three sums. If
+  // the triangle is not nearly edge-on, the relative error of `slope` is therefore below 2^-26. The
+  // test fails for triangles without area.
+  const D terms = magnitudes_sum<N>(e1) * magnitudes_sum<N>(e2) * magnitudes_sum<N>(d);
+  const auto is_sure = (square > 0) & (magnitude(D(slope)) > 0x1p-24 * terms);
   narrowed<N>(is_sure ? one : zero, hits.is_sure + i);
   const V p = o + t * d, from_a = p - a;
   const D inverse = 1 / square;

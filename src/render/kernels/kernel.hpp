@@ -9,6 +9,7 @@
 #include "render/kernels/light_lanes.hpp"
 #include "render/kernels/surface_lanes.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace microtrace {
@@ -18,7 +19,7 @@ template <int width>
 struct alignas(width * sizeof(float)) HitArrays {
   using Floats = float[width];
 
-  Floats o[3], d[3], t;
+  Floats o[3], d[3];
   Floats corners[3][3];  ///< [corner][axis]
   Floats normals[3][3];  ///< normals of the vertices; zero if the mesh has none
   Floats uv[3][2];       ///< texture coordinates of set 0; zero if the mesh has none
@@ -73,15 +74,32 @@ struct ScatterSetup {
   float most_survival;  ///< maximum survival probability; 1 disables Russian roulette
 };
 
+/// An array of 32-bit values whose lanes are appended to another one.
+struct ColumnCopy {
+  const float* from;
+  float* to;
+};
+/// The lanes to append: the elements from + i of the source for each bit i. The first one becomes
+/// element `to`.
+struct AppendedLanes {
+  std::uint32_t lanes;  ///< one bit for each of kShadingLanes lanes
+  std::size_t from, to;
+};
+
 struct ShadingKernels {
   const char* name;
+  /// Appends lanes to all of these arrays.
+  void (*append)(const ColumnCopy* columns, int column_count, const AppendedLanes& which);
   /// Computes sampling::Sobol(keys[i], indices[i]).pair(number) for kShadingLanes samples.
   void (*random_pairs)(const std::uint32_t* keys, const std::uint32_t* indices,
                        std::uint32_t number, float* x, float* y);
   void (*find_points)(HitLanes& lanes);
   void (*find_normals)(const NormalLanes& points, NormalMapLanes& map);
   void (*choose_lights)(const LightChoiceSetup& setup, LightChoices<kShadingLanes>& lanes);
-  void (*sample_triangles)(TriangleLights<kShadingLanes>& lanes);
+  void (*sample_triangles)(const TriangleLight* triangles,
+                           const TriangleChoices<kShadingLanes>& choices,
+                           const LightChoices<kShadingLanes>& points,
+                           LightSamples<kShadingLanes>& samples);
   void (*scatter)(const ScatterSetup& setup, ScatterLanes& lanes);
 };
 

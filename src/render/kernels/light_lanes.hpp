@@ -8,15 +8,20 @@
 
 namespace microtrace {
 
-/// The lights among which a kernel selects by their importance at a point.
+/// The lights among which a kernel selects by their importance at a point. Estimated upper bounds
+/// of irradiance are in the units of the near lights' tree.
 struct LightChoiceSetup {
   /// Nodes of the near lights' tree; null if there are no near lights.
   const LightNode* nodes = nullptr;
+  LightTreeSpace space{};
   bool has_far = false;
-  double environment_light = 0, far_light = 0;  ///< estimated upper bounds of irradiance
+  float environment_light = 0, far_light = 0;
+
+  /// Converts an irradiance from world units. A positive one remains positive.
+  [[nodiscard]] float irradiance(double light) const;
 };
 
-enum class LightKind : std::uint8_t { none, environment, far, near };
+enum class LightKind : std::int32_t { none, environment, far, near };
 
 /// The points for which lights are selected.
 template <int width>
@@ -27,25 +32,40 @@ struct alignas(width * sizeof(float)) LightChoices {
                         ///< kind is selected
   // The kernel sets the members below.
   LightKind kind[width];
-  double probability[width];   ///< selection probability of the environment, the far lights or the
+  float probability[width];    ///< selection probability of the environment, the far lights or the
                                ///< near light
   std::uint32_t light[width];  ///< index among the near lights
 };
 
-/// Samples of emissive triangles, in the form of LightSample.
+/// Light samples, in the form of LightSample.
 template <int width>
-struct alignas(width * sizeof(float)) TriangleLights {
-  float p[3][width];           ///< the illuminated point
-  float corners[3][3][width];  ///< [corner][axis]
-  float u[2][width];
-  /// Values at the sampled point, as seen from the front.
-  float emission[3][width], coverage[width];
-  float has_back[width];      ///< 1 if the back emits too, otherwise 0
-  double probability[width];  ///< selection probability of the triangle
-  // The kernel sets the members below.
+struct alignas(width * sizeof(float)) LightSamples {
+  static constexpr std::uint32_t kNoTarget = ~0U;
+
   float is_far[width];  ///< 1 if to_light is only a direction, otherwise 0
-  float to_light[3][width], wi[3][width], light[3][width];
-  float pdf[width];  ///< 0 if the triangle contributes no light
+  float to_light[3][width], wi[3][width];
+  float light[3][width];  ///< 0 if there is no sample
+  float pdf[width];
+  std::uint32_t target[width];  ///< the emissive surface, or kNoTarget
+};
+
+/// An emissive triangle of a mesh.
+struct alignas(64) TriangleLight {
+  float corners[3][3];        ///< [corner][axis]
+  float emission[3];          ///< of the front; unused if it is not the same everywhere
+  float has_back;             ///< 1 if the back emits too, otherwise 0
+  std::uint32_t id;           ///< PrimitiveId
+  std::uint32_t is_textured;  ///< 1 if the emission is not the same everywhere
+};
+
+/// The points for which emissive triangles are sampled.
+template <int width>
+struct alignas(width * sizeof(float)) TriangleChoices {
+  float u[2][width];
+  std::uint32_t triangle[width];  ///< index into the array of TriangleLight
+  float selected[width];          ///< 1 in the lanes to sample, otherwise 0
+  /// Values at the sampled point of textured triangles, as seen from the front.
+  float emission[3][width], coverage[width];
 };
 
 }  // namespace microtrace

@@ -18,7 +18,7 @@ namespace {
 
 /// The bytes that each emitter needs for its entry, bounds and tree nodes, including unused
 /// capacity.
-constexpr std::uint64_t kBytesOfEmitter = 276;
+constexpr std::uint64_t kBytesOfEmitter = 360;
 
 void take_memory_for_emitters(std::uint64_t count) {
   take_memory(count * kBytesOfEmitter, "the lights of the scene");
@@ -63,7 +63,16 @@ void Emitters::add_triangle(PrimitiveId id, const Triangle& t, std::vector<Light
   const ShadingPoint middle = shading_.point_on(id, Vec3(1 / 3.0F), true, width);
   const double power = area * luminance(DVec3(shading_.emission(middle)));
   if (!(power > 0)) return;
-  emitters_.push_back({.id = id, .area = area});
+  emitters_.push_back(
+      {.id = id, .triangle = static_cast<std::uint32_t>(triangles_.size()), .area = area});
+  const TexturedMaterial& look = *middle.look;
+  const Vec3 emission = glm::min(look.material->emissive, Vec3(kBrightest));
+  triangles_.push_back(
+      {.corners = {{t.a.x, t.a.y, t.a.z}, {t.b.x, t.b.y, t.b.z}, {t.c.x, t.c.y, t.c.z}},
+       .emission = {emission.x, emission.y, emission.z},
+       .has_back = look.has_back ? 1.0F : 0.0F,
+       .id = id,
+       .is_textured = look.has_constant_emission ? 0U : 1U});
   bounds.push_back({.low = glm::min(t.a, glm::min(t.b, t.c)),
                     .high = glm::max(t.a, glm::max(t.b, t.c)),
                     .power = power,
@@ -95,23 +104,29 @@ void Emitters::add_lights(std::vector<LightBounds>& bounds) {
   }
 }
 
-void Emitters::put_triangle(std::uint32_t light, int lane,
-                            TriangleLights<kShadingLanes>& lanes) const {
-  const PrimitiveId id = emitters_[light].id;
-  const auto& [corners, look] = shading_.triangle(id);
-  put(lanes.corners[0], lane, corners.a);
-  put(lanes.corners[1], lane, corners.b);
-  put(lanes.corners[2], lane, corners.c);
-  lanes.has_back[lane] = has_back(*look.material) ? 1.0F : 0.0F;
-  if (look.has_constant_emission) {
-    put(lanes.emission, lane, glm::min(look.material->emissive, Vec3(kBrightest)));
-    lanes.coverage[lane] = 1;
-    return;
+float LightChoiceSetup::irradiance(double light) const {
+  if (!(light > 0)) return 0;
+  constexpr double kLeast{LightTreeSpace::kLeast};
+  return static_cast<float>(std::clamp(light / space.unit, kLeast, 1 / kLeast));
+}
+
+LightChoiceSetup Emitters::choice_setup() const {
+  LightChoiceSetup setup{.has_far = has_far()};
+  if (tree_) {
+    setup.nodes = tree_->nodes();
+    setup.space = tree_->space();
   }
-  const ShadingPoint point = shading_.point_on(
-      id, sampling::triangle_point({lanes.u[0][lane], lanes.u[1][lane]}), true, 0);
-  put(lanes.emission, lane, shading_.emission(point));
-  lanes.coverage[lane] = shading_.coverage(point, false);
+  setup.far_light = setup.irradiance(far_light_);
+  return setup;
+}
+
+void Emitters::put_textured(std::uint32_t triangle, const Vec2& u, int lane,
+                            TriangleChoices<kShadingLanes>& choices) const {
+  const TriangleLight& light = triangles_[triangle];
+  if (light.is_textured == 0) return;
+  const ShadingPoint point = shading_.point_on(light.id, sampling::triangle_point(u), true, 0);
+  put(choices.emission, lane, shading_.emission(point));
+  choices.coverage[lane] = shading_.coverage(point, false);
 }
 
 std::optional<FoundLight> Emitters::of_shape(const Emitter& emitter, const Vec3& p,
@@ -162,7 +177,7 @@ float Emitters::pdf(std::size_t light, const LightSampleContext& context, float 
   const double pdf = emitter.shape != nullptr
                          ? shape_pdf(*emitter.shape, context.p, distance, cosine)
                          : area_pdf<1>(length * length, emitter.area, cosine);
-  probability *= tree_->probability(light, context.p, context.n);
+  probability *= double{tree_->probability(light, context.p, context.n)};
   return probability > 0 ? static_cast<float>(limited_pdf<1>(pdf * probability)) : 0;
 }
 

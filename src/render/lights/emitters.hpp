@@ -36,23 +36,27 @@ class Emitters {
   [[nodiscard]] bool has_far() const { return !far_lights_.empty(); }
 
   /// The input for selecting lights, without the environment.
-  [[nodiscard]] LightChoiceSetup choice_setup() const {
-    return {
-        .nodes = tree_ ? tree_->nodes() : nullptr, .has_far = has_far(), .far_light = far_light_};
-  }
+  [[nodiscard]] LightChoiceSetup choice_setup() const;
 
   /// Samples the directional lights. `choice` is in [0, 1). `probability` is the probability of
   /// sampling directional lights instead of other lights.
   [[nodiscard]] std::optional<LightSample> sample_far(const Vec3& p, float choice,
                                                       double probability) const;
 
-  /// True if a near light is a triangle of a mesh.
-  [[nodiscard]] bool is_triangle(std::uint32_t light) const {
-    return emitters_[light].light == kNone && emitters_[light].shape == nullptr;
+  /// The emissive triangles of meshes; null if there are none.
+  [[nodiscard]] const TriangleLight* triangles() const {
+    return triangles_.empty() ? nullptr : triangles_.data();
   }
-  /// Sets the kernel's input for sampling a triangle with lanes.u.
-  void put_triangle(std::uint32_t light, int lane, TriangleLights<kShadingLanes>& lanes) const;
-  [[nodiscard]] PrimitiveId primitive(std::uint32_t light) const { return emitters_[light].id; }
+  /// The index of a near light among the triangles; nothing for other lights.
+  [[nodiscard]] std::optional<std::uint32_t> triangle_index(std::uint32_t light) const {
+    const Emitter& emitter = emitters_[light];
+    if (emitter.light != kNone || emitter.shape != nullptr) return std::nullopt;
+    return emitter.triangle;
+  }
+  /// Sets the emission and coverage at the point u of a triangle in a lane, if the triangle is
+  /// textured.
+  void put_textured(std::uint32_t triangle, const Vec2& u, int lane,
+                    TriangleChoices<kShadingLanes>& choices) const;
   /// Samples a near light that is not a triangle of a mesh. u selects a point on it. `probability`
   /// is the probability of selecting this light.
   [[nodiscard]] std::optional<LightSample> sample_near(std::uint32_t light, const Vec3& p,
@@ -73,6 +77,7 @@ class Emitters {
   struct Emitter {
     PrimitiveId id = 0;
     std::uint32_t light = kNone;   ///< index into Scene::lights; kNone for surfaces
+    std::uint32_t triangle = 0;    ///< index into triangles_ if it is a triangle of a mesh
     double area = 0;               ///< area of a triangle of a mesh
     const Shape* shape = nullptr;  ///< the shape if it is not a mesh
   };
@@ -88,6 +93,7 @@ class Emitters {
   const Shading& shading_;
   std::vector<std::uint32_t> far_lights_;  // indices into Scene::lights
   std::vector<Emitter> emitters_;          // emissive surfaces first, sorted by id
+  std::vector<TriangleLight> triangles_;
   std::size_t surfaces_ = 0;
   std::optional<LightTree> tree_;  // tree of the emitters
   double far_light_ = 0;

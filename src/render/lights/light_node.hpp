@@ -2,6 +2,7 @@
 /// The importance of lights in light tree nodes, for N lanes.
 
 #include "render/sampling/warps.hpp"
+#include "simd/transpose.hpp"
 #include "simd/vector3.hpp"
 #include "simd/vectors.hpp"
 
@@ -9,24 +10,40 @@
 
 namespace microtrace {
 
-/// A node of the light tree. Derived values are float64, because squares and products of float32
-/// numbers may exceed float32's range. Nodes are plain data, because the kernels of all instruction
-/// sets share them.
-struct LightNode {
-  double center[3];      ///< center of the bounding box
-  double radius_square;  ///< squared radius of the box's bounding sphere
-  double power;
-  float axis[3];       ///< axis of the cone of normals, of unit length
+/// A node of the light tree, in the tree's own units (LightTreeSpace). Nodes are plain data,
+/// because the kernels of all instruction sets share them.
+struct alignas(64) LightNode {
+  float center[3];      ///< center of the bounding box
+  float radius_square;  ///< squared radius of the box's bounding sphere
+  float axis[3];        ///< axis of the cone of normals, of unit length
+  float power;
   float cos_o, sin_o;  ///< cosine and sine of half the cone's opening angle
   float cos_e;         ///< cosine of the greatest angle to its normal at which a light emits
-  std::uint32_t is_two_sided;  ///< 1 if the lights also emit around -axis
-  std::uint32_t is_leaf = 1;
-  std::uint32_t second = 0;  ///< index of the second child; the first child follows its parent
-  std::uint32_t light = 0;   ///< index of the light in a leaf
+  float is_two_sided;  ///< 1 if the lights also emit around -axis
+  std::uint32_t children = 0;  ///< index of the first of two adjacent children; 0 for leaves
+  std::uint32_t light = 0;     ///< index of the light in a leaf
 };
 
-/// A number less than the square of any nonzero distance between float32 points.
-inline constexpr double kLeastSquare = 0x1p-300;
+/// The units of a light tree. Lengths are multiples of its size and powers multiples of its total
+/// power, so that float32 can represent squares of lengths. Points far away are moved closer, and
+/// small numbers are replaced by kLeast.
+struct LightTreeSpace {
+  float origin[3] = {0, 0, 0};
+  float scale = 1;  ///< a power of two
+  double unit = 1;  ///< importance of 1 in world units: power / squared length
+
+  static constexpr float kFarthest = 0x1p60F, kLeast = 0x1p-100F;
+
+  template <int N>
+  [[nodiscard]] Floats3<N> point(const Floats3<N>& p) const {
+    // Half of the vector from the origin, because float32 may not represent the whole.
+    const Floats3<N> half{0.5F * p.x - 0.5F * origin[0], 0.5F * p.y - 0.5F * origin[1],
+                          0.5F * p.z - 0.5F * origin[2]};
+    const Float<N> size =
+        greatest_component(Floats3<N>{magnitude(half.x), magnitude(half.y), magnitude(half.z)});
+    return half * smaller_of(Float<N>(kFarthest / size), all<N>(2 * scale));
+  }
+};
 
 /// An angle in [0, pi].
 template <int N>
@@ -50,77 +67,61 @@ struct LightAngle {
 template <int N>
 struct LightNodes {
   using F = Float<N>;
-  using D = Double<N>;
+  using V = Floats3<N>;
 
-  Doubles3<N> center;
-  D radius_square, power;
-  Floats3<N> axis;
-  F cos_o, sin_o, cos_e, is_two_sided;
+  V center, axis;
+  F radius_square, power, cos_o, sin_o, cos_e, is_two_sided;
 
   /// Puts the same node in all lanes.
   explicit LightNodes(const LightNode& node)
-      : center{D{} + node.center[0], D{} + node.center[1], D{} + node.center[2]},
-        radius_square(D{} + node.radius_square),
-        power(D{} + node.power),
+      : center{all<N>(node.center[0]), all<N>(node.center[1]), all<N>(node.center[2])},
         axis{all<N>(node.axis[0]), all<N>(node.axis[1]), all<N>(node.axis[2])},
+        radius_square(all<N>(node.radius_square)),
+        power(all<N>(node.power)),
         cos_o(all<N>(node.cos_o)),
         sin_o(all<N>(node.sin_o)),
         cos_e(all<N>(node.cos_e)),
-        is_two_sided(all<N>(static_cast<float>(node.is_two_sided))) {}
+        is_two_sided(all<N>(node.is_two_sided)) {}
 
   /// Loads the nodes with these indices.
-  static LightNodes of(const LightNode* nodes, const std::uint32_t (&indices)[N]) {
-    LightNodes result(nodes[indices[0]]);
-    std::uint32_t differences = 0;
-    for (int i = 1; i < N; ++i) differences |= indices[i] ^ indices[0];
-    if (differences == 0) return result;
-    double wide[5][N];
-    float narrow[7][N];
-    for (int i = 0; i < N; ++i) {
-      const LightNode& node = nodes[indices[i]];
-      for (int k = 0; k < 3; ++k) wide[k][i] = node.center[k];
-      wide[3][i] = node.radius_square;
-      wide[4][i] = node.power;
-      for (int k = 0; k < 3; ++k) narrow[k][i] = node.axis[k];
-      narrow[3][i] = node.cos_o;
-      narrow[4][i] = node.sin_o;
-      narrow[5][i] = node.cos_e;
-      narrow[6][i] = static_cast<float>(node.is_two_sided);
-    }
-    result.center = {load_doubles<N>(wide[0]), load_doubles<N>(wide[1]), load_doubles<N>(wide[2])};
-    result.radius_square = load_doubles<N>(wide[3]);
-    result.power = load_doubles<N>(wide[4]);
-    result.axis = {load<N>(narrow[0]), load<N>(narrow[1]), load<N>(narrow[2])};
-    result.cos_o = load<N>(narrow[3]);
-    result.sin_o = load<N>(narrow[4]);
-    result.cos_e = load<N>(narrow[5]);
-    result.is_two_sided = load<N>(narrow[6]);
-    return result;
+  LightNodes(const LightNode* nodes, const std::uint32_t (&indices)[N]) {
+    constexpr int kColumns = sizeof(LightNode) / sizeof(float);
+    F columns[kColumns];
+    load_rows<N>(nodes->center, indices, columns);
+    center = {columns[0], columns[1], columns[2]};
+    radius_square = columns[3];
+    axis = {columns[4], columns[5], columns[6]};
+    power = columns[7];
+    cos_o = columns[8];
+    sin_o = columns[9];
+    cos_e = columns[10];
+    is_two_sided = columns[11];
   }
 
   /// An upper bound of the light that arrives at p, except for the BSDF and a constant factor. `n`
-  /// is the unit normal at p on either side.
-  [[nodiscard]] D importance(const Doubles3<N>& p, const Floats3<N>& n) const {
-    const F zero{}, one = all<N>(1);
-    const D to_zero{};
-    const Doubles3<N> to_light = p - center;
-    const D square = dot(to_light, to_light);
-    const Floats3<N> direction = to_single3<N>(to_light / square_root<N>(square));
+  /// is the unit normal at p on either side. The result is positive unless no light arrives.
+  [[nodiscard]] F importance(const V& p, const V& n) const {
+    const F zero{}, one = all<N>(1), least_square = all<N>(LightTreeSpace::kLeast);
+    const V to_light = p - center;
+    const F square = dot(to_light, to_light);
+    const V direction = to_light / square_root<N>(square);
     const F along = dot(axis, direction);
     const auto to_point =
         LightAngle<N>::of(smaller_of(is_two_sided != 0 ? magnitude(along) : along, one));
     // The angle subtended by the bounding sphere.
-    const F sine_square = to_single<N>(smaller_of(D(radius_square / square), to_zero + 1));
-    const auto is_inside = single_mask<N>(square <= radius_square);
+    const F sine_square = smaller_of(F(radius_square / square), one);
+    const auto is_inside = square <= radius_square;
     const LightAngle<N> box{square_root<N>(1 - sine_square), square_root<N>(sine_square)};
     const LightAngle<N> off_cone = to_point - LightAngle<N>{cos_o, sin_o};
     const F least = is_inside ? one : (off_cone - box).cosine;
     const auto arriving = LightAngle<N>::of(smaller_of(magnitude(F(dot(direction, n))), one));
     const F least_arriving = is_inside ? one : (arriving - box).cosine;
     const F cosines = larger_of(least, zero) * larger_of(least_arriving, zero);
-    const D outside = power * to_double<N>(cosines) / larger_of(square, radius_square);
-    const D reached = to_double<N>(least < cos_e ? zero : one) != 0 ? outside : to_zero;
-    return square > 0 ? reached : power / larger_of(radius_square, to_zero + kLeastSquare);
+    const F outside =
+        larger_of(F(power * cosines / larger_of(square, radius_square)), least_square);
+    const auto is_reached = (cosines > 0) & (least >= cos_e);
+    return square > least_square ? (is_reached ? outside : zero)
+                                 : power / larger_of(radius_square, least_square);
   }
 };
 
@@ -128,61 +129,72 @@ struct LightNodes {
 /// child may be occluded.
 inline constexpr float kLeastProbability = 0x1p-12F;
 
-/// The probability of selecting the first child of inner nodes; negative if neither child
-/// contributes.
+/// The probability of selecting the first child of inner nodes, whose children start at these
+/// indices; negative if neither child contributes.
 template <int N>
-Float<N> first_probability(const LightNode* nodes, const std::uint32_t (&indices)[N],
-                           const Doubles3<N>& p, const Floats3<N>& n) {
-  std::uint32_t firsts[N], seconds[N];
-  for (int i = 0; i < N; ++i) {
-    firsts[i] = indices[i] + 1;
-    seconds[i] = nodes[indices[i]].second;
-  }
-  const Double<N> first = LightNodes<N>::of(nodes, firsts).importance(p, n);
-  const Double<N> second = LightNodes<N>::of(nodes, seconds).importance(p, n);
-  const Float<N> share = clamped(to_single<N>(first / (first + second)), all<N>(kLeastProbability),
+Float<N> first_probability(const LightNode* nodes, const std::uint32_t (&children)[N],
+                           const Floats3<N>& p, const Floats3<N>& n) {
+  std::uint32_t differences = 0;
+  for (int i = 1; i < N; ++i) differences |= children[i] ^ children[0];
+  const LightNode* pairs = nodes + 1;
+  const bool is_one = differences == 0;
+  const auto first_nodes =
+      is_one ? LightNodes<N>(nodes[children[0]]) : LightNodes<N>(nodes, children);
+  const auto second_nodes =
+      is_one ? LightNodes<N>(pairs[children[0]]) : LightNodes<N>(pairs, children);
+  const Float<N> first = first_nodes.importance(p, n), second = second_nodes.importance(p, n);
+  const Float<N> share = clamped(Float<N>(first / (first + second)), all<N>(kLeastProbability),
                                  all<N>(1 - kLeastProbability));
-  const auto is_first = single_mask<N>(first > 0), is_second = single_mask<N>(second > 0);
+  const auto is_first = first > 0, is_second = second > 0;
   return is_first ? (is_second ? share : all<N>(1)) : (is_second ? Float<N>{} : all<N>(-1));
+}
+
+/// The probability of selecting a child with this conditional probability. It doesn't underflow.
+template <int N>
+Float<N> child_probability(const Float<N>& parent, const Float<N>& child) {
+  return child > 0 ? larger_of(Float<N>(parent * child), all<N>(0x1p-126F)) : Float<N>{};
 }
 
 /// The light selected in each lane.
 template <int N>
 struct LightChoice {
-  std::uint32_t light[N];
-  Double<N> probability;  ///< selection probability at each point; 0 if no light reaches the point
+  std::uint32_t light[N] = {};
+  Float<N> probability{};  ///< selection probability at each point; 0 if no light reaches the point
 };
 
-/// Selects a light for each lane. u is in [0, 1).
+/// Selects a light for each of the `wanted` lanes. p is in the units of the tree. u is in [0, 1).
 template <int N>
-LightChoice<N> choose_light(const LightNode* nodes, const Doubles3<N>& p, const Floats3<N>& n,
-                            Float<N> u) {
+LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const Floats3<N>& n,
+                            Float<N> u, Lanes wanted) {
   using F = Float<N>;
-  LightChoice<N> choice{{}, Double<N>{} + 1};
-  std::uint32_t indices[N] = {};
-  for (;;) {
-    float inner[N];
-    bool is_done = true;
-    for (int i = 0; i < N; ++i) {
-      inner[i] = nodes[indices[i]].is_leaf != 0 ? 0.0F : 1.0F;
-      is_done &= inner[i] == 0;
-    }
-    if (is_done) break;
-    const auto is_inner = load<N>(inner) != 0;
-    const F first = first_probability<N>(nodes, indices, p, n);
-    const auto is_second = u >= first;
+  LightChoice<N> choice{.probability = all<N>(1)};
+  std::uint32_t leaves[N] = {}, children[N];
+  for (std::uint32_t& child : children) child = nodes[0].children;
+  Lanes inner = nodes[0].children == 0 ? 0 : wanted;
+  while (inner != 0) {
+    const F first = first_probability<N>(nodes, children, p, n);
+    const auto is_second = u >= first, is_inner = mask_of<N>(inner);
     const F share = is_second ? 1 - first : first;
-    const F rest = sampling::reused<N>(u, is_second ? first : F{}, share);
-    u = is_inner ? rest : u;
-    const F part = is_inner ? (first < 0 ? F{} : share) : all<N>(1);
-    choice.probability *= to_double<N>(part);
-    const F step = is_second ? all<N>(1) : F{};
-    for (int i = 0; i < N; ++i) {
-      if (inner[i] == 0) continue;
-      indices[i] = lane(step, i) != 0 ? nodes[indices[i]].second : indices[i] + 1;
+    u = sampling::reused<N>(u, is_second ? first : F{}, share);
+    const F selected = child_probability<N>(choice.probability, first < 0 ? F{} : share);
+    choice.probability = is_inner ? selected : choice.probability;
+    const Lanes seconds = less_equal<N>(all<N>(1), is_second ? all<N>(1) : F{});
+    // Lanes without light need not descend further.
+    Lanes rest = inner & less<N>(F{}, choice.probability);
+    inner = 0;
+    for (; rest != 0; rest &= rest - 1) {
+      const int i = __builtin_ctz(rest);
+      leaves[i] = children[i] + (seconds >> i & 1U);
+      if (nodes[leaves[i]].children == 0) continue;
+      children[i] = nodes[leaves[i]].children;
+      inner |= Lanes{1} << i;
     }
+    // Lanes that are done repeat the work of another lane, so that often all nodes are the same.
+    if (inner == 0) break;
+    const std::uint32_t some = children[__builtin_ctz(inner)];
+    for (int i = 0; i < N; ++i) children[i] = (inner >> i & 1U) != 0 ? children[i] : some;
   }
-  for (int i = 0; i < N; ++i) choice.light[i] = nodes[indices[i]].light;
+  for (int i = 0; i < N; ++i) choice.light[i] = nodes[leaves[i]].light;
   return choice;
 }
 

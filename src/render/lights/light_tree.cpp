@@ -40,23 +40,46 @@ LightCone united(const LightCone& a, const LightCone& b) {
   return cone;
 }
 
+LightBounds united(const LightBounds& a, const LightBounds& b) {
+  return {.low = glm::min(a.low, b.low),
+          .high = glm::max(a.high, b.high),
+          .power = a.power + b.power,
+          .cone = united(a.cone, b.cone),
+          .two_sided = a.two_sided || b.two_sided};
+}
+
 double half_area(const Vec3& low, const Vec3& high) {
   const DVec3 d = DVec3(high) - DVec3(low);
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-LightNode node_of(const LightBounds& bounds) {
-  const DVec3 from(bounds.low), to(bounds.high);
-  const DVec3 center = (from + to) * 0.5, diagonal = to - from;
+LightTreeSpace space_of(const LightBounds& bounds) {
+  const DVec3 from(bounds.low), to(bounds.high), extent = to - from;
+  const Vec3 origin((from + to) * 0.5);
+  const double size = std::max({extent.x, extent.y, extent.z});
+  const int exponent = size > 0 ? std::clamp(-std::ilogb(size), -126, 126) : 0;
+  const double scale = std::ldexp(1.0, exponent);
+  return {.origin = {origin.x, origin.y, origin.z},
+          .scale = static_cast<float>(scale),
+          .unit = bounds.power * scale * scale};
+}
+
+/// The node's radius includes the rounding errors of points in the units of the tree.
+LightNode node_of(const LightBounds& bounds, const LightTreeSpace& space, double total_power) {
+  const DVec3 from(bounds.low), to(bounds.high), diagonal = to - from;
+  const DVec3 origin(space.origin[0], space.origin[1], space.origin[2]);
+  const Vec3 center(((from + to) * 0.5 - origin) * double{space.scale});
+  const double radius = std::sqrt(glm::dot(diagonal, diagonal)) * 0.5 * space.scale + 0x1p-22;
+  const double power = std::max(bounds.power / total_power, double{LightTreeSpace::kLeast});
   const LightCone& cone = bounds.cone;
   return {.center = {center.x, center.y, center.z},
-          .radius_square = glm::dot(diagonal, diagonal) * 0.25,
-          .power = bounds.power,
+          .radius_square = static_cast<float>(radius * radius),
           .axis = {cone.axis.x, cone.axis.y, cone.axis.z},
+          .power = static_cast<float>(power),
           .cos_o = cone.cos_o,
           .sin_o = Angle::of(cone.cos_o).sine,
           .cos_e = cone.cos_e,
-          .is_two_sided = bounds.two_sided ? 1U : 0U};
+          .is_two_sided = bounds.two_sided ? 1.0F : 0.0F};
 }
 
 struct Bucket {
@@ -80,31 +103,31 @@ struct Bucket {
 
 }  // namespace
 
-LightBounds united(const LightBounds& a, const LightBounds& b) {
-  return {.low = glm::min(a.low, b.low),
-          .high = glm::max(a.high, b.high),
-          .power = a.power + b.power,
-          .cone = united(a.cone, b.cone),
-          .two_sided = a.two_sided || b.two_sided};
-}
-
-double LightBounds::importance(const Vec3& p, const Vec3& n) const {
-  return LightNodes<1>(node_of(*this)).importance(DVec3(p), n);
-}
+struct LightTree::Range {
+  std::size_t begin, end;  ///< range of `order`
+  std::size_t place;       ///< index of the node
+  std::uint64_t trail = 0;
+  unsigned depth = 0;
+};
 
 LightTree::LightTree(const std::vector<LightBounds>& lights) : trails_(lights.size()) {
+  LightBounds all = lights[0];
+  for (std::size_t i = 1; i < lights.size(); ++i) all = united(all, lights[i]);
+  space_ = space_of(all);
   nodes_.reserve(2 * lights.size());
+  nodes_.emplace_back();
   std::vector<std::uint32_t> order(lights.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
-  build(lights, order, 0, order.size(), 0, 0);
+  build(lights, order, {.begin = 0, .end = order.size(), .place = 0});
 }
 
 void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::uint32_t>& order,
-                      std::size_t begin, std::size_t end, std::uint64_t trail, unsigned depth) {
-  const std::size_t place = nodes_.size();
+                      const Range& range) {
+  const auto [begin, end, place, trail, depth] = range;
+  const double total_power = space_.unit / (double{space_.scale} * space_.scale);
   LightBounds bounds = lights[order[begin]];
   if (end - begin == 1) {
-    nodes_.push_back(node_of(bounds));
+    nodes_[place] = node_of(bounds, space_, total_power);
     nodes_[place].light = order[begin];
     trails_[order[begin]] = trail;
     return;
@@ -118,7 +141,7 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
     low = glm::min(low, center(order[i]));
     high = glm::max(high, center(order[i]));
   }
-  nodes_.push_back(node_of(bounds));
+  nodes_[place] = node_of(bounds, space_, total_power);
   const DVec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
 
@@ -151,21 +174,24 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
       middle = static_cast<std::size_t>(border - order.begin());
     }
   }
-  nodes_[place].is_leaf = 0;
-  build(lights, order, begin, middle, trail, depth + 1);
-  nodes_[place].second = static_cast<std::uint32_t>(nodes_.size());
-  build(lights, order, middle, end, trail | std::uint64_t{1} << depth, depth + 1);
+  const std::size_t children = nodes_.size();
+  nodes_[place].children = static_cast<std::uint32_t>(children);
+  nodes_.resize(children + 2);
+  build(lights, order, {begin, middle, children, trail, depth + 1});
+  build(lights, order, {middle, end, children + 1, trail | std::uint64_t{1} << depth, depth + 1});
 }
 
-double LightTree::probability(std::size_t light, const Vec3& p, const Vec3& n) const {
-  double probability = 1;
+float LightTree::probability(std::size_t light, const Vec3& p, const Vec3& n) const {
+  const Vec3 local = space_.point<1>(p);
+  float probability = 1;
   std::uint32_t node = 0;
-  for (std::uint64_t trail = trails_[light]; nodes_[node].is_leaf == 0; trail >>= 1U) {
-    const float first = first_probability<1>(nodes_.data(), {node}, DVec3(p), n);
+  for (std::uint64_t trail = trails_[light]; nodes_[node].children != 0; trail >>= 1U) {
+    const std::uint32_t children = nodes_[node].children;
+    const float first = first_probability<1>(nodes_.data(), {children}, local, n);
     if (first < 0) return 0;
     const bool is_second = (trail & 1U) != 0;
-    probability *= double{is_second ? 1 - first : first};
-    node = is_second ? nodes_[node].second : node + 1;
+    probability = child_probability<1>(probability, is_second ? 1 - first : first);
+    node = children + (is_second ? 1 : 0);
   }
   return probability;
 }

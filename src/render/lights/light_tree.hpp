@@ -31,9 +31,6 @@ struct LightBounds {
   double power = 0;
   LightCone cone{};
   bool two_sided = false;  ///< true if the lights also emit around -axis
-
-  /// See LightNodes::importance().
-  [[nodiscard]] double importance(const Vec3& p, const Vec3& n) const;
 };
 
 /// The finite float32 point that is nearest to p.
@@ -41,9 +38,6 @@ struct LightBounds {
   constexpr double kMost = std::numeric_limits<float>::max();
   return Vec3(glm::clamp(p, DVec3(-kMost), DVec3(kMost)));
 }
-
-/// The union of both bounds.
-[[nodiscard]] LightBounds united(const LightBounds& a, const LightBounds& b);
 
 /// The tree of lights. Immutable; any number of threads may use it.
 class LightTree {
@@ -54,14 +48,18 @@ class LightTree {
 
   /// The nodes, starting with the root.
   [[nodiscard]] const LightNode* nodes() const { return nodes_.data(); }
+  [[nodiscard]] const LightTreeSpace& space() const { return space_; }
 
-  /// The probability with which choose_light() selects this light.
-  [[nodiscard]] double probability(std::size_t light, const Vec3& p, const Vec3& n) const;
+  /// The probability with which choose_light() selects this light at a point in world space.
+  [[nodiscard]] float probability(std::size_t light, const Vec3& p, const Vec3& n) const;
 
  private:
-  void build(const std::vector<LightBounds>& lights, std::vector<std::uint32_t>& order,
-             std::size_t begin, std::size_t end, std::uint64_t trail, unsigned depth);
+  struct Range;  // a range of lights, which become one node
 
+  void build(const std::vector<LightBounds>& lights, std::vector<std::uint32_t>& order,
+             const Range& range);
+
+  LightTreeSpace space_;
   std::vector<LightNode> nodes_;
   /// The path from the root to each light, with one bit per level, lowest bit first. A set bit
   /// means the second child.

@@ -3,10 +3,23 @@
 #include "render/bsdf/ggx.hpp"
 #include "render/kernels/lane_access.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 namespace microtrace {
+namespace {
+
+void put_sample(LightSamples<kShadingLanes>& lanes, int lane, const LightSample& sample) {
+  lanes.is_far[lane] = sample.is_far ? 1.0F : 0.0F;
+  put(lanes.to_light, lane, sample.to_light);
+  put(lanes.wi, lane, sample.wi);
+  put(lanes.light, lane, sample.light);
+  lanes.pdf[lane] = sample.pdf;
+  lanes.target[lane] = sample.target.value_or(LightSamples<kShadingLanes>::kNoTarget);
+}
+
+}  // namespace
 
 Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment,
                    bool is_seen, const SkyVisibility* visibility)
@@ -14,7 +27,8 @@ Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> env
   if (!environment) return;
   environment_ = std::make_unique<const EnvironmentLight>(*std::move(environment));
   // approximate irradiance on a surface
-  setup_.environment_light = double{environment_->sampled_luminance() / bsdf::kInversePi};
+  setup_.environment_light =
+      setup_.irradiance(double{environment_->sampled_luminance() / bsdf::kInversePi});
   if (visibility != nullptr)
     guide_ = std::make_unique<const EnvironmentGuide>(*visibility, *environment_);
 }
@@ -31,14 +45,14 @@ float Lighting::pdf(const EnvironmentGuide::Cell* cell, const Vec3& wi, float ow
   return cell->part() * cell->pdf(wi) + (1 - cell->part()) * own;
 }
 
-void Lighting::sample_environment(int count, const LightChoices<kShadingLanes>& choices,
-                                  const TriangleLights<kShadingLanes>& triangles,
-                                  std::span<LightSample, kShadingLanes> samples) const {
+void Lighting::sample_environment(int count, const Choices& all_choices,
+                                  LightSamples<kShadingLanes>& samples) const {
+  const auto& [choices, triangles] = all_choices;
   const auto set = [&](int lane, const EnvironmentGuide::Cell* own_cell, const Vec3& wi,
                        const Vec3& radiance, float own_pdf) {
-    const float all = pdf(own_cell, wi, own_pdf) * static_cast<float>(choices.probability[lane]);
-    samples[static_cast<std::size_t>(lane)] = {
-        .to_light = wi, .is_far = true, .wi = wi, .light = radiance / all, .pdf = all};
+    const float all = pdf(own_cell, wi, own_pdf) * choices.probability[lane];
+    put_sample(samples, lane,
+               {.to_light = wi, .is_far = true, .wi = wi, .light = radiance / all, .pdf = all});
   };
   std::array<Vec2, kShadingLanes> u;
   std::array<int, kShadingLanes> lanes;
@@ -50,8 +64,8 @@ void Lighting::sample_environment(int count, const LightChoices<kShadingLanes>& 
     if (!samples_environment(own_cell)) continue;
     const Vec2 place(triangles.u[0][lane], triangles.u[1][lane]);
     // The kernel selects the environment with the lowest numbers.
-    const double choice = double{choices.choice[lane]} / choices.probability[lane];
-    if (own_cell != nullptr && choice < double{own_cell->part()}) {
+    const float choice = choices.choice[lane] / choices.probability[lane];
+    if (own_cell != nullptr && choice < own_cell->part()) {
       const Vec3 wi = own_cell->sample(place);
       const EnvironmentLight::Lookup look = environment_->lookup(wi);
       set(lane, own_cell, wi, look.radiance, look.pdf);
@@ -67,54 +81,43 @@ void Lighting::sample_environment(int count, const LightChoices<kShadingLanes>& 
     set(lanes[i], cells[i], found[i].wi, found[i].radiance, found[i].pdf);
 }
 
-void Lighting::sample(const ShadingKernels& kernels, int count,
-                      LightChoices<kShadingLanes>& choices,
-                      TriangleLights<kShadingLanes>& triangles,
-                      std::span<LightSample, kShadingLanes> samples) const {
+void Lighting::sample_near(int lane, Choices& choices, LightSamples<kShadingLanes>& samples) const {
+  auto& [points, triangles] = choices;
+  const std::uint32_t light = points.light[lane];
+  const Vec2 u(triangles.u[0][lane], triangles.u[1][lane]);
+  if (const std::optional<std::uint32_t> triangle = emitters_.triangle_index(light)) {
+    triangles.selected[lane] = 1;
+    triangles.triangle[lane] = *triangle;
+    emitters_.put_textured(*triangle, u, lane, triangles);
+    return;
+  }
+  const auto sample =
+      emitters_.sample_near(light, got(points.p, lane), u, double{points.probability[lane]});
+  if (sample) put_sample(samples, lane, *sample);
+}
+
+void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices,
+                      LightSamples<kShadingLanes>& samples) const {
+  auto& [points, triangles] = choices;
   for (int lane = 0; lane < count; ++lane)
-    choices.share[lane] = share(cell(got(choices.p, lane), got(choices.n, lane)));
-  kernels.choose_lights(setup_, choices);
-  bool has_triangles = false;
+    points.share[lane] = guide_ ? share(cell(got(points.p, lane), got(points.n, lane))) : 1;
+  kernels.choose_lights(setup_, points);
+  for (auto& light : samples.light) std::ranges::fill(light, 0.0F);
+  std::ranges::fill(samples.target, LightSamples<kShadingLanes>::kNoTarget);
+  std::ranges::fill(triangles.selected, 0.0F);
+  std::ranges::fill(triangles.triangle, 0U);
   for (int lane = 0; lane < count; ++lane) {
-    LightSample& sample = samples[static_cast<std::size_t>(lane)];
-    const Vec2 u(triangles.u[0][lane], triangles.u[1][lane]);
-    const std::uint32_t light = choices.light[lane];
-    const double probability = choices.probability[lane];
-    triangles.coverage[lane] = 0;
-    sample = {};
-    switch (choices.kind[lane]) {
-      case LightKind::none:
-      case LightKind::environment:
-        break;
-      case LightKind::far:
-        sample = emitters_.sample_far(got(choices.p, lane), choices.choice[lane], probability)
-                     .value_or(LightSample{});
-        break;
-      case LightKind::near:
-        if (emitters_.is_triangle(light)) {
-          put(triangles.p, lane, got(choices.p, lane));
-          triangles.probability[lane] = probability;
-          emitters_.put_triangle(light, lane, triangles);
-          has_triangles = true;
-        } else {
-          sample = emitters_.sample_near(light, got(choices.p, lane), u, probability)
-                       .value_or(LightSample{});
-        }
-        break;
+    if (points.kind[lane] == LightKind::near) {
+      sample_near(lane, choices, samples);
+    } else if (points.kind[lane] == LightKind::far) {
+      const auto sample = emitters_.sample_far(got(points.p, lane), points.choice[lane],
+                                               double{points.probability[lane]});
+      if (sample) put_sample(samples, lane, *sample);
     }
   }
-  if (samples_environment()) sample_environment(count, choices, triangles, samples);
-  if (!has_triangles) return;
-  kernels.sample_triangles(triangles);
-  for (int lane = 0; lane < count; ++lane) {
-    if (triangles.coverage[lane] == 0 || triangles.pdf[lane] == 0) continue;
-    samples[static_cast<std::size_t>(lane)] = {.to_light = got(triangles.to_light, lane),
-                                               .is_far = triangles.is_far[lane] != 0,
-                                               .wi = got(triangles.wi, lane),
-                                               .light = got(triangles.light, lane),
-                                               .pdf = triangles.pdf[lane],
-                                               .target = emitters_.primitive(choices.light[lane])};
-  }
+  if (samples_environment()) sample_environment(count, choices, samples);
+  if (emitters_.triangles() != nullptr)
+    kernels.sample_triangles(emitters_.triangles(), triangles, points, samples);
 }
 
 EnvironmentLight::Lookup Lighting::environment(const LightSampleContext& context,

@@ -27,13 +27,17 @@ class Lighting {
   Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment, bool is_seen,
            const SkyVisibility* visibility);
 
-  /// Samples a light for each of `count` points. `choices.choice` selects the light, and
-  /// `triangles.u` the position on it. If a uniform environment is selected without a guide, the
-  /// sample has no light, because uniform environments are left to BSDF sampling. The other members
-  /// of `choices` and `triangles` are working memory of the kernels.
-  void sample(const ShadingKernels& kernels, int count, LightChoices<kShadingLanes>& choices,
-              TriangleLights<kShadingLanes>& triangles,
-              std::span<LightSample, kShadingLanes> samples) const;
+  /// Working memory for sample().
+  struct Choices {
+    LightChoices<kShadingLanes> points{};
+    TriangleChoices<kShadingLanes> triangles{};
+  };
+  /// Samples a light for each of `count` points. points.p and n are the points, points.choice
+  /// selects the light, and triangles.u the position on it. If a uniform environment is selected
+  /// without a guide, the sample has no light, because uniform environments are left to BSDF
+  /// sampling.
+  void sample(const ShadingKernels& kernels, int count, Choices& choices,
+              LightSamples<kShadingLanes>& samples) const;
 
   /// True if sample() can return light.
   [[nodiscard]] bool can_sample() const {
@@ -74,14 +78,16 @@ class Lighting {
   [[nodiscard]] float share(const EnvironmentGuide::Cell* cell) const;
   [[nodiscard]] KindProbabilities<1> probabilities(const LightSampleContext& context,
                                                    const EnvironmentGuide::Cell* cell) const {
-    return kind_probabilities<1>(setup_, DVec3(context.p), context.n, double{share(cell)});
+    return kind_probabilities<1>(setup_, setup_.space.point<1>(context.p), context.n, share(cell));
   }
   /// The pdf with which a direction is sampled in this cell if the environment is selected.
   [[nodiscard]] float pdf(const EnvironmentGuide::Cell* cell, const Vec3& wi, float own) const;
   /// Sets the samples of the lanes for which the environment is selected.
-  void sample_environment(int count, const LightChoices<kShadingLanes>& choices,
-                          const TriangleLights<kShadingLanes>& triangles,
-                          std::span<LightSample, kShadingLanes> samples) const;
+  void sample_environment(int count, const Choices& choices,
+                          LightSamples<kShadingLanes>& samples) const;
+  /// Sets the sample of a lane for which a near light is selected, unless it is a triangle without
+  /// textures, which the kernel samples.
+  void sample_near(int lane, Choices& choices, LightSamples<kShadingLanes>& samples) const;
   [[nodiscard]] bool samples_environment() const {
     return environment_ && (guide_ || !environment_->is_uniform());
   }

@@ -27,14 +27,10 @@ void put_attributes(HitArrays<width>& lanes, int lane, const Mesh& mesh,
 }
 
 template <int width>
-void put_hit(HitArrays<width>& lanes, int lane, const Ray& ray, const Hit& hit, const Mesh& mesh,
-             const std::array<std::uint32_t, 3>& corners) {
-  put(lanes.o, lane, ray.o);
-  put(lanes.d, lane, ray.d);
-  lanes.t[lane] = hit.t;
+void put_positions(HitArrays<width>& lanes, int lane, const Mesh& mesh,
+                   const std::array<std::uint32_t, 3>& corners) {
   const Vec3* positions = mesh.positions.data();
   for (std::size_t i = 0; i < 3; ++i) put(lanes.corners[i], lane, positions[corners[i]]);
-  put_attributes(lanes, lane, mesh, corners);
 }
 
 /// Sets the attributes that interpolate() computes. at.mesh must be set.
@@ -47,15 +43,10 @@ void get_attributes(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
   at.uv_scale = is_textured ? lanes.uv_scale[lane] : 0;
 }
 
-/// Sets all members that find_points() computes. at.mesh and at.corners must be set. Points of
-/// triangles that are edge-on or have no area, which are rare, are computed by interact().
+/// Sets all members that find_points() has computed. lanes.is_sure must be 1 for this lane, and
+/// at.mesh and at.corners must be set.
 template <int width>
-void get_point(const HitArrays<width>& lanes, int lane, const Primitives& primitives,
-               const Ray& ray, const Hit& hit, SurfacePoint& at) {
-  if (lanes.is_sure[lane] == 0) {
-    at = rounded(interact(primitives, ray, hit), ray, hit);
-    return;
-  }
+void get_sure_point(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
   at.p = got(lanes.p, lane);
   at.front = lanes.from_behind[lane] == 0;
   at.distance = lanes.distance[lane];

@@ -50,10 +50,13 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
                          !material.diffuse_transmission;
     const bool is_textured = std::ranges::any_of(
         look.slots, [](const TextureSlot& slot) { return slot.map != nullptr; });
+    look.has_back = has_back(material);
+    has_textures_ |= is_textured;
     // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
     if (is_textured || material.anisotropy || encloses_medium(material)) return;
     const ShadingPoint anywhere{.at = {}, .look = &look};
     look.constant.emplace(parameters(anywhere, 3), layers(anywhere));
+    look.is_simple = material.alpha_mode == AlphaMode::opaque && !material.unlit && !look.shines();
   };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);

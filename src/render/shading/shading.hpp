@@ -20,6 +20,7 @@
 
 namespace microtrace {
 
+struct HitGroup;
 struct ShadingPoint;
 
 /// A use of a texture by a material.
@@ -65,6 +66,10 @@ struct TexturedMaterial {
   /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
   bool has_constant_emission = false;
   bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
+  /// True if the surface is opaque, emits nothing, and has a constant BSDF on meshes without vertex
+  /// colors.
+  bool is_simple = false;
+  bool has_back = false;  ///< has_back(*material)
   /// The BSDF's input if it is the same everywhere on meshes without vertex colors.
   std::optional<BsdfInput> constant{};
 
@@ -109,26 +114,18 @@ class Shading {
 
   /// The shading point of `hit`, which must be a hit of `ray`. Its width is set to 0.
   [[nodiscard]] ShadingPoint point(const Ray& ray, const Hit& hit) const;
-  /// Sets the shading points of up to kShadingLanes hits. Points without a hit remain unchanged.
-  /// `lanes` is working memory of the kernel.
-  void points(const ShadingKernels& kernels, std::span<const Ray> rays,
-              std::span<const std::optional<Hit>> hits, HitLanes& lanes,
-              std::span<ShadingPoint> points) const;
+  /// Finds the points of the hits group.hit of primitives `ids`. The caller has set the rays in
+  /// group.lanes.
+  void find_points(const ShadingKernels& kernels, std::span<const PrimitiveId, kShadingLanes> ids,
+                   HitGroup& group) const;
+  /// The shading point in a lane of a group, for which find_points() was called. Its width is 0.
+  [[nodiscard]] ShadingPoint point(const HitGroup& group, int lane, const Ray& ray,
+                                   const Hit& hit) const;
 
   /// A point on a mesh triangle without a ray, for evaluating emission. For other shapes, on which
   /// emission is constant, only the side is set.
   [[nodiscard]] ShadingPoint point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
                                       float width) const;
-
-  /// A triangle of a mesh, and its material.
-  struct MeshTriangle {
-    Triangle corners;
-    const TexturedMaterial& look;
-  };
-  [[nodiscard]] MeshTriangle triangle(PrimitiveId id) const {
-    const Entry& entry = entries_[primitives_.object_index(id)];
-    return {triangle_of(*entry.mesh, id - entry.first_id), looks_[entry.look]};
-  }
 
   [[nodiscard]] const Material& material(PrimitiveId id) const {
     return *looks_[entries_[primitives_.object_index(id)].look].material;
@@ -150,6 +147,8 @@ class Shading {
   [[nodiscard]] static bool lets_light_in(const ShadingPoint& point) {
     return point.at.front && point.look->has_open_back;
   }
+  /// True if a material has textures, so that the footprints of paths matter.
+  [[nodiscard]] bool has_textures() const { return has_textures_; }
   /// True if lets_light_in() may return true for a point of the scene.
   [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
@@ -187,7 +186,7 @@ class Shading {
   std::unique_ptr<TextureMaps> maps_;
   std::vector<TexturedMaterial> looks_;  // by material; the last is for objects without a material
   std::vector<Entry> entries_;           // by object
-  bool all_cover_ = true, has_open_backs_ = false;
+  bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false;
 };
 
 }  // namespace microtrace

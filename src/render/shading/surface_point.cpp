@@ -52,9 +52,14 @@ SurfacePoint surface_point(const Primitives& primitives, const Ray& ray, const H
   at.mesh = mesh;
   at.corners = mesh->triangles[triangle];
   HitArrays<1> lanes;
-  put_hit(lanes, 0, ray, hit, *mesh, at.corners);
+  put(lanes.o, 0, ray.o);
+  put(lanes.d, 0, ray.d);
+  put_positions(lanes, 0, *mesh, at.corners);
+  put_attributes(lanes, 0, *mesh, at.corners);
   find_points<1>(lanes);
-  get_point(lanes, 0, primitives, ray, hit, at);
+  // Triangles that are edge-on or have no area are rare.
+  if (lanes.is_sure[0] == 0) return rounded(interact(primitives, ray, hit), ray, hit);
+  get_sure_point(lanes, 0, at);
   return at;
 }
 

@@ -14,28 +14,34 @@ namespace microtrace {
 inline std::optional<LightSample> light_sample(const Lighting& lighting,
                                                const LightSampleContext& context, const Vec2& u,
                                                float choice) {
-  LightChoices<kShadingLanes> choices{};
-  TriangleLights<kShadingLanes> triangles{};
-  std::array<LightSample, kShadingLanes> samples;
-  put(choices.p, 0, context.p);
-  put(choices.n, 0, context.n);
-  choices.choice[0] = choice;
-  triangles.u[0][0] = u.x;
-  triangles.u[1][0] = u.y;
-  lighting.sample(kShadingKernels.best(), 1, choices, triangles, samples);
-  if (samples[0].light == Vec3(0)) return std::nullopt;
-  return samples[0];
+  Lighting::Choices choices;
+  LightSamples<kShadingLanes> samples{};
+  put(choices.points.p, 0, context.p);
+  put(choices.points.n, 0, context.n);
+  choices.points.choice[0] = choice;
+  choices.triangles.u[0][0] = u.x;
+  choices.triangles.u[1][0] = u.y;
+  lighting.sample(kShadingKernels.best(), 1, choices, samples);
+  const Vec3 light = got(samples.light, 0);
+  if (light == Vec3(0)) return std::nullopt;
+  const std::uint32_t target = samples.target[0];
+  return LightSample{.to_light = got(samples.to_light, 0),
+                     .is_far = samples.is_far[0] != 0,
+                     .wi = got(samples.wi, 0),
+                     .light = light,
+                     .pdf = samples.pdf[0],
+                     .target = target == samples.kNoTarget ? std::nullopt : std::optional(target)};
 }
 
 /// A light chosen from the tree, and its probability. chosen_light() returns nothing if no light
 /// reaches the point.
 struct ChosenLight {
   std::size_t light;
-  double probability;
+  float probability;
 };
 inline std::optional<ChosenLight> chosen_light(const LightTree& tree, const Vec3& p, const Vec3& n,
                                                float u) {
-  const LightChoice<1> choice = choose_light<1>(tree.nodes(), DVec3(p), n, u);
+  const LightChoice<1> choice = choose_light<1>(tree.nodes(), tree.space().point<1>(p), n, u, 1);
   if (!(choice.probability > 0)) return std::nullopt;
   return ChosenLight{.light = choice.light[0], .probability = choice.probability};
 }

@@ -41,9 +41,9 @@ TEST_P(LightKernelsTest, LightsAreChosenWithTheBitsOfOneLane) {
     const LightTree tree(any_lights(random, 1 + static_cast<int>(random.bits() % 50)));
     const LightChoiceSetup setup{
         .nodes = random.number() < 0.2F ? nullptr : tree.nodes(),
+        .space = tree.space(),
         .has_far = random.number() < 0.5F,
-        .environment_light =
-            random.number() < 0.5F ? 0 : std::exp2(20 * double{random.signed_unit()}),
+        .environment_light = random.number() < 0.5F ? 0 : std::exp2(20 * random.signed_unit()),
         .far_light = random.number()};
     LightChoices<kShadingLanes> lanes{};
     for (int i = 0; i < kShadingLanes; ++i) {
@@ -73,29 +73,49 @@ TEST_P(LightKernelsTest, TrianglesAreSampledWithTheBitsOfOneLane) {
   LaneRandom random(5);
   int lit = 0;
   for (int round = 0; round < kRounds; ++round) {
-    TriangleLights<kShadingLanes> lanes{};
+    std::array<TriangleLight, kShadingLanes> triangles{};
+    TriangleChoices<kShadingLanes> choices{};
+    LightChoices<kShadingLanes> points{};
+    LightSamples<kShadingLanes> lanes{};
     for (int i = 0; i < kShadingLanes; ++i) {
       const float size = std::exp2(60 * random.signed_unit());
-      put(lanes.p, i, size * random.vector());
-      for (auto& corner : lanes.corners) put(corner, i, size * random.vector());
-      for (auto& u : lanes.u) u[i] = random.number();
-      put(lanes.emission, i, random.number() < 0.1F ? Vec3(0) : random.color());
-      lanes.coverage[i] = random.number() < 0.1F ? 0 : random.number();
-      lanes.has_back[i] = random.number() < 0.5F ? 0.0F : 1.0F;
-      lanes.probability[i] = random.number() + 1e-6;
+      put(points.p, i, size * random.vector());
+      TriangleLight& light = triangles[static_cast<std::size_t>(i)];
+      const auto set = [](float(&to)[3], const Vec3& v) {
+        for (int axis = 0; axis < 3; ++axis) to[axis] = v[axis];
+      };
+      for (auto& corner : light.corners) set(corner, size * random.vector());
+      const Vec3 emission = random.number() < 0.1F ? Vec3(0) : random.color();
+      light.id = 100 + static_cast<std::uint32_t>(i);
+      light.has_back = random.number() < 0.5F ? 0.0F : 1.0F;
+      light.is_textured = random.bits() % 2;
+      if (light.is_textured != 0)
+        put(choices.emission, i, emission);
+      else
+        set(light.emission, emission);
+      choices.coverage[i] = random.number() < 0.1F ? 0 : random.number();
+      for (auto& u : choices.u) u[i] = random.number();
+      choices.triangle[i] = static_cast<std::uint32_t>(i) ^ (random.bits() & 1U);
+      choices.selected[i] = random.number() < 0.2F ? 0.0F : 1.0F;
+      points.probability[i] = random.number() + 1e-6F;
+      lanes.pdf[i] = -1;
+      lanes.target[i] = 7;
     }
-    TriangleLights<kShadingLanes> expected = lanes;
-    GetParam()->sample_triangles(lanes);
-    sample_triangles<1>(expected);
+    LightSamples<kShadingLanes> expected = lanes;
+    GetParam()->sample_triangles(triangles.data(), choices, points, lanes);
+    sample_triangles<1>(triangles.data(), choices, points, expected);
     for (int i = 0; i < kShadingLanes; ++i) {
       expect_bits(lanes.pdf[i], expected.pdf[i], "pdf");
-      ASSERT_TRUE(lanes.pdf[i] >= 0);
-      if (lanes.pdf[i] == 0) continue;
-      ++lit;
+      ASSERT_EQ(lanes.target[i], expected.target[i]);
+      ASSERT_EQ(lanes.target[i], lanes.pdf[i] == -1 ? 7 : 100 + choices.triangle[i]);
       expect_bits(lanes.is_far[i], expected.is_far[i], "is_far");
       expect_bits(lanes.to_light, expected.to_light, i, "to_light");
       expect_bits(lanes.wi, expected.wi, i, "wi");
       expect_bits(lanes.light, expected.light, i, "light");
+      if (choices.selected[i] == 0) {
+        ASSERT_EQ(lanes.pdf[i], -1);
+      }
+      lit += lanes.pdf[i] > 0 ? 1 : 0;
     }
   }
   EXPECT_GT(lit, kRounds * kShadingLanes / 4);

@@ -40,10 +40,8 @@ TEST_P(ShadingKernelsTest, PointsHaveTheBitsOfOneLane) {
       const Vec3 target = a + u * (b - a) + v * (c - a);
       const Vec3 o = target + 3.0F * glm::length(b - a) * random.direction();
       const Vec3 d = (target - o) * random.number();
-      const DVec3 n = glm::cross(DVec3(b) - DVec3(a), DVec3(c) - DVec3(a));
       put(lanes.o, i, o);
       put(lanes.d, i, d);
-      lanes.t[i] = static_cast<float>(glm::dot(DVec3(a) - DVec3(o), n) / glm::dot(n, DVec3(d)));
     }
     HitLanes expected = lanes;
     GetParam()->find_points(lanes);
@@ -67,9 +65,87 @@ TEST_P(ShadingKernelsTest, PointsHaveTheBitsOfOneLane) {
 
 TEST_P(ShadingKernelsTest, UncertainPointsAreMarked) {
   HitLanes lanes{};  // all triangles are degenerate
-  for (float& t : lanes.t) t = 1;
   GetParam()->find_points(lanes);
   for (const float sure : lanes.is_sure) EXPECT_EQ(sure, 0);
+}
+
+// The points of triangles that are nearly edge-on must not be used, because their error is large.
+TEST_P(ShadingKernelsTest, SurePointsAreExactWithinFloat32) {
+  LaneRandom random(7);
+  int sure = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    HitLanes lanes{};
+    std::array<Vec3, kShadingLanes> targets;
+    for (int i = 0; i < kShadingLanes; ++i) {
+      const Vec3 a = random.vector(), b = random.vector(), c = random.vector();
+      const float u = random.number(), v = (1 - u) * random.number();
+      const Vec3 target = a + u * (b - a) + v * (c - a);
+      const Vec3 n = unit<1>(glm::cross(b - a, c - a));
+      // A direction with an angle of down to 2^-40 to the plane.
+      const Vec3 d = unit<1>(b - a) + std::exp2(20 * random.signed_unit() - 20) * n;
+      put(lanes.corners[0], i, a);
+      put(lanes.corners[1], i, b);
+      put(lanes.corners[2], i, c);
+      put(lanes.o, i, target - d);
+      put(lanes.d, i, d);
+      targets[static_cast<std::size_t>(i)] = target;
+    }
+    GetParam()->find_points(lanes);
+    for (int i = 0; i < kShadingLanes; ++i) {
+      if (lanes.is_sure[i] == 0) continue;
+      ++sure;
+      // The exact point on the triangle's plane, from the rounded ray.
+      const auto exact = [](float x) { return static_cast<long double>(x); };
+      long double e1[3], e2[3], from[3];
+      for (int k = 0; k < 3; ++k) {
+        e1[k] = exact(lanes.corners[1][k][i]) - exact(lanes.corners[0][k][i]);
+        e2[k] = exact(lanes.corners[2][k][i]) - exact(lanes.corners[0][k][i]);
+        from[k] = exact(lanes.corners[0][k][i]) - exact(lanes.o[k][i]);
+      }
+      long double height = 0, slope = 0;
+      for (int k = 0; k < 3; ++k) {
+        const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+        const long double normal = e1[k1] * e2[k2] - e1[k2] * e2[k1];
+        height += normal * from[k];
+        slope += normal * exact(lanes.d[k][i]);
+      }
+      for (int k = 0; k < 3; ++k) {
+        const long double p = exact(lanes.o[k][i]) + height / slope * exact(lanes.d[k][i]);
+        EXPECT_NEAR(static_cast<double>(p), double{lanes.p[k][i]}, 0x1p-21);
+      }
+    }
+  }
+  EXPECT_GT(sure, kRounds * kShadingLanes / 4);
+  EXPECT_LT(sure, kRounds * kShadingLanes * 3 / 4);
+}
+
+TEST_P(ShadingKernelsTest, LanesAreAppendedInOrder) {
+  LaneRandom random(8);
+  for (int round = 0; round < 10 * kRounds; ++round) {
+    float from[2][3 * kShadingLanes], to[2][2 * kShadingLanes];
+    for (auto& column : from)
+      for (float& x : column) x = random.number();
+    for (auto& column : to) std::ranges::fill(column, -1.0F);
+    const std::uint32_t lanes = round == 0 ? 0xffff : random.bits() & random.bits() & 0xffff;
+    const std::size_t first = random.bits() % (2 * kShadingLanes),
+                      end = random.bits() % kShadingLanes;
+    const ColumnCopy columns[] = {{from[0], to[0]}, {from[1], to[1]}};
+    GetParam()->append(columns, 2, {.lanes = lanes, .from = first, .to = end});
+    for (int column = 0; column < 2; ++column) {
+      std::size_t place = end;
+      for (std::size_t lane = 0; lane < kShadingLanes; ++lane) {
+        if ((lanes >> lane & 1U) != 0) {
+          ASSERT_EQ(to[column][place++], from[column][first + lane]);
+        }
+      }
+      // Other elements remain unchanged.
+      for (std::size_t k = 0; k < 2 * kShadingLanes; ++k) {
+        if (k < end || k >= place) {
+          ASSERT_EQ(to[column][k], -1);
+        }
+      }
+    }
+  }
 }
 
 TEST_P(ShadingKernelsTest, NormalsHaveTheBitsOfOneLane) {

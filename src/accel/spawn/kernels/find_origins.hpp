@@ -14,9 +14,9 @@ inline Float<N> neighbors(const Float<N>& x, const typename FloatVector<N>::bits
   return (Float<N>)(x == 0 ? from_zero : away);
 }
 
-/// Finds the origins of N lanes starting at lane i.
+/// Finds the origins of N lanes starting at lane i. Returns the certain ones.
 template <int N>
-inline void find_origins_of(const HitPointLanes& points, OriginLanes& lanes, int i) {
+inline Lanes find_origins_of(const HitPointLanes& points, OriginLanes& lanes, int i) {
   using D = Double<N>;
   using Mask = DoubleMask<N>;
   const CrossProducts<N> normal(load3<N>(points.n, i), load3<N>(points.permanent, i));
@@ -47,12 +47,14 @@ inline void find_origins_of(const HitPointLanes& points, OriginLanes& lanes, int
     for (int k = 0; k < 3; ++k) q.v[k] = (open & (axis == k)) ? moved : q.v[k];
   }
   for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);
-  narrowed<N>(is_sure ? D{} + 1 : D{}, lanes.is_sure + i);
+  return less<N>(__builtin_convertvector(is_sure, Float<N>), Float<N>{}) << i;
 }
 
 template <int N>
-void find_origins(const HitPointLanes& points, OriginLanes& lanes) {
-  for (int i = 0; i < kSpawnLanes; i += N) find_origins_of<N>(points, lanes, i);
+Lanes find_origins(const HitPointLanes& points, OriginLanes& lanes) {
+  Lanes sure = 0;
+  for (int i = 0; i < kSpawnLanes; i += N) sure |= find_origins_of<N>(points, lanes, i);
+  return sure;
 }
 
 }  // namespace

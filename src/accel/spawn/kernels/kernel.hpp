@@ -41,14 +41,13 @@ struct alignas(64) HitPointLanes {
 /// The directions and origins of rays that leave the points of HitPointLanes, one ray per point.
 struct alignas(64) OriginLanes {
   SpawnFloats direction[3];
-  // ---- set by the kernel:
-  SpawnFloats is_sure;
-  SpawnFloats origin[3];
+  SpawnFloats origin[3];  ///< set by the kernel
 };
 
 struct SpawnKernels {
   void (*find_hit_points)(HitPointLanes& lanes);
-  void (*find_origins)(const HitPointLanes& points, OriginLanes& lanes);
+  /// Returns the lanes whose origins are certain, one bit for each.
+  std::uint32_t (*find_origins)(const HitPointLanes& points, OriginLanes& lanes);
 };
 
 extern const SpawnKernels kPortableSpawn;

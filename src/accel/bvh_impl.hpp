@@ -1,0 +1,60 @@
+#pragma once
+/// The members of a Bvh, and queries of single rays and packets.
+
+#include "accel/build/tree.hpp"
+#include "accel/bvh_tree.hpp"
+#include "accel/few_triangles.hpp"
+#include "accel/kernels/kernel.hpp"
+#include "accel/ray_stream.hpp"
+#include "accel/spawn/fast_spawn.hpp"
+#include "accel/spawn/kernels/kernel.hpp"
+
+#include <microtrace/bvh.hpp>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace microtrace {
+
+struct Bvh::Impl {
+  Impl(const Scene& scene, BvhOptions options);
+
+  [[nodiscard]] TreeView view() const {
+    return {.nodes = tree.nodes.data(),
+            .blocks = tree.blocks.data(),
+            .others = tree.others.data(),
+            .root = tree.root,
+            .few = few.get()};
+  }
+
+  [[nodiscard]] RayStream::Target stream_target() const {
+    return {.primitives = primitives, .outside = outside, .kernels = *kernels, .tree = view()};
+  }
+  [[nodiscard]] FastSpawns make_spawns() const {
+    return {primitives, outside, *kernels, *spawn_kernels,
+            has_tree ? std::optional(view()) : std::nullopt};
+  }
+
+  [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
+  [[nodiscard]] std::optional<Hit> next(const Ray& ray, PrimitiveId after) const;
+  [[nodiscard]] bool occluded(const Ray& ray) const;
+  [[nodiscard]] std::optional<Vec3> search_origin(const Spawn& spawn) const;
+
+  /// Traces up to kPacketRays rays with a common origin. Returns false, without effect, if one of
+  /// the rays exceeds the kernels' limits.
+  [[nodiscard]] bool intersect_packet(std::span<const Ray> rays,
+                                      std::span<std::optional<Hit>> hits) const;
+
+  Primitives primitives;
+  std::shared_ptr<const BvhTree> shared;
+  const Tree& tree = shared->tree;
+  const std::vector<PrimitiveId>& outside = tree.unbounded;  // tested one by one
+  bool has_tree = !tree.blocks.empty() || !tree.others.empty();
+  std::unique_ptr<const FewTriangles> few = few_triangles(tree);
+  const Kernels* kernels;
+  const SpawnKernels* spawn_kernels;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,110 @@
+#include "accel/ray_tracer.hpp"
+
+#include "accel/bvh_impl.hpp"
+#include "accel/kernel_rays.hpp"
+#include "accel/resolve/hit_resolver.hpp"
+#include "accel/stage_counts.hpp"
+#include "float_environment.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace microtrace {
+
+struct RayTracer::Queries {
+  explicit Queries(const Bvh::Impl& impl)
+      : bvh(impl), stream(impl.stream_target()), spawns(impl.make_spawns()) {}
+
+  const Bvh::Impl& bvh;
+  RayStream stream;
+  FastSpawns spawns;
+  std::array<PrimitiveId, FastSpawns::kHits> left{};
+  HitPointLanes* points = nullptr;
+};
+
+struct RayTracer::Memory {
+  std::optional<Queries> queries{};
+};
+
+RayTracer::Queries& RayTracer::queries() const {
+  return *memory_->queries;
+}
+
+RayTracer::RayTracer() : memory_(std::make_unique<Memory>()) {}
+RayTracer::~RayTracer() = default;
+
+void RayTracer::begin(const Bvh& bvh) {
+  memory_->queries.emplace(*bvh.impl_);
+}
+
+void RayTracer::closest(const RayColumns& rays, std::span<PrimitiveId> ids) {
+  const FloatEnvironment environment;
+  const Bvh::Impl& bvh = queries().bvh;
+  const auto ask_one = [&](std::size_t i) {
+    const std::optional<Hit> hit = bvh.intersect(rays[i]);
+    ids[i] = hit ? hit->id : kNoPrimitive;
+  };
+  if (!bvh.has_tree) {
+    for (std::size_t i = 0; i < rays.count; ++i) ask_one(i);
+    return;
+  }
+  for (std::size_t first = 0; first < rays.count; first += kStreamRays) {
+    RayColumns part = rays.from(first);
+    part.count = std::min<std::size_t>(part.count, kStreamRays);
+    queries().stream.closest(part, ids.subspan(first, part.count),
+                             [&](std::size_t i) { ask_one(first + i); });
+  }
+}
+
+void RayTracer::any(const RayColumns& rays, std::span<bool> results) {
+  const FloatEnvironment environment;
+  const Bvh::Impl& bvh = queries().bvh;
+  const auto ask_one = [&](std::size_t i) { results[i] = bvh.occluded(rays[i]); };
+  if (!bvh.has_tree) {
+    for (std::size_t i = 0; i < rays.count; ++i) ask_one(i);
+    return;
+  }
+  for (std::size_t first = 0; first < rays.count; first += kStreamRays) {
+    RayColumns part = rays.from(first);
+    part.count = std::min<std::size_t>(part.count, kStreamRays);
+    queries().stream.any(part, results.subspan(first, part.count),
+                         [&](std::size_t i) { ask_one(first + i); });
+  }
+}
+
+Hit RayTracer::hit(const Ray& ray, PrimitiveId id) const {
+  const FloatEnvironment environment;
+  const double t_scale = kernel_t_scale(ray);
+  return HitResolver(queries().bvh.primitives, ray, t_scale == 0 ? 1 : t_scale).hit(id);
+}
+
+void RayTracer::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes, HitPointLanes& points) {
+  const FloatEnvironment environment;
+  // The tree holds only one triangle of each group of duplicates.
+  const Duplicates& duplicates = queries().bvh.tree.duplicates;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    queries().left[i] = duplicates.empty() ? ids[i] : duplicates.representative(ids[i]);
+  queries().points = &points;
+  queries().spawns.set_hits(std::span(queries().left).first(ids.size()), on_meshes, points);
+}
+
+Lanes RayTracer::leave(Lanes wanted, OriginLanes& lanes) {
+  const FloatEnvironment environment;
+  fallback_stages.origins += static_cast<std::uint64_t>(std::popcount(wanted));
+  Lanes found = queries().spawns.leave(wanted, lanes);
+  for (Lanes open = wanted & ~found; open != 0; open &= open - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(open));
+    const Ray ray = ray_of(*queries().points, lane);
+    const Vec3 direction(lanes.direction[0][lane], lanes.direction[1][lane],
+                         lanes.direction[2][lane]);
+    const std::optional<Vec3> origin = queries().bvh.search_origin(
+        {.ray = &ray, .hit = {.id = queries().left[lane], .t = 0}, .direction = direction});
+    if (!origin) continue;
+    for (int axis = 0; axis < 3; ++axis) lanes.origin[axis][lane] = (*origin)[axis];
+    found |= Lanes{1} << lane;
+  }
+  return found;
+}
+
+}  // namespace microtrace

@@ -1,0 +1,50 @@
+#pragma once
+/// Queries of a Bvh for rays in arrays of components. The results are those of the functions of
+/// Bvh.
+
+#include "accel/ray_stream.hpp"
+#include "accel/spawn/fast_spawn.hpp"
+
+#include <microtrace/bvh.hpp>
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace microtrace {
+
+/// A tracer of rays for one thread. It holds large working memory.
+class RayTracer {
+ public:
+  RayTracer();
+  ~RayTracer();
+  RayTracer(const RayTracer&) = delete;
+  RayTracer& operator=(const RayTracer&) = delete;
+
+  /// Selects the Bvh, which must outlive the following queries.
+  void begin(const Bvh& bvh);
+
+  /// Sets ids[i] to the primitive that ray i hits first, or to kNoPrimitive.
+  void closest(const RayColumns& rays, std::span<PrimitiveId> ids);
+  /// Sets results[i] to true if ray i hits anything.
+  void any(const RayColumns& rays, std::span<bool> results);
+
+  /// The hit of a ray with the primitive that closest() found.
+  [[nodiscard]] Hit hit(const Ray& ray, PrimitiveId id) const;
+
+  /// Sets the hits that rays leave, one in each lane of `points`; see FastSpawns::set_hits. There
+  /// may be at most kSpawnLanes. `points` must remain valid for leave().
+  void set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes, HitPointLanes& points);
+  /// Sets the origins of rays that leave the `wanted` hits in the directions of `lanes`, as
+  /// Bvh::spawn_origin does. Returns the lanes for which there is an origin.
+  [[nodiscard]] Lanes leave(Lanes wanted, OriginLanes& lanes);
+
+ private:
+  struct Queries;  // for one Bvh
+  struct Memory;   // for the queries of any Bvh
+  [[nodiscard]] Queries& queries() const;
+
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace microtrace

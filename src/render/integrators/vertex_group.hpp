@@ -1,0 +1,45 @@
+#pragma once
+/// The vertices of consecutive paths of a wavefront, one in each lane.
+
+#include "render/bsdf/features.hpp"
+#include "render/bsdf/parameters.hpp"
+#include "render/kernels/kernel.hpp"
+#include "render/shading/hit_group.hpp"
+#include "simd/vector_types.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace microtrace {
+
+using LaneNumbers = std::uint32_t[kShadingLanes];
+
+/// Vertices whose light and next directions are to be sampled. Their rays, positions and normals
+/// are those of `hits`.
+struct alignas(64) VertexGroup {
+  HitGroup hits;
+  LaneNumbers id;       ///< the primitive
+  LaneNumbers on_mesh;  ///< 1 for triangles of meshes, whose vertices are in hits.lanes.corners
+  LaneFloats side;      ///< 1 if the ray hits the front, -1 if it hits the back
+  LaneFloats width;     ///< footprint width
+  // For normal maps; only the lanes with is_mapped are set.
+  LaneFloats tangents[3][3], handedness;
+  NormalMapLanes normals, coat_normals;
+  SurfaceLanes surface;
+  // Below surfaces that transmit light:
+  LaneFloats through_weight[3];  ///< weight of light that crosses the surface
+  LaneFloats absorption[3];
+  LaneNumbers channel;
+  /// The material whose constant BSDF `surface` has in a lane; null for other BSDFs.
+  std::array<const TexturedMaterial*, kShadingLanes> surface_of{};
+
+  Lanes vertices = 0;                                  ///< lanes with a vertex
+  Lanes mapped = 0;                                    ///< lanes with a normal map
+  std::array<bsdf::Features, kShadingLanes> features;  ///< of the lanes with a vertex
+};
+
+/// Sets the members of a lane that depend on its point: position, normals and normal maps.
+void put_point(VertexGroup& group, int lane, const ShadingPoint& point);
+
+}  // namespace microtrace
