@@ -3,8 +3,13 @@
 #include "accel/hit_rounding.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 
+#include <microtrace/scene.hpp>
+
 #include <algorithm>
 #include <cassert>
+#include <variant>
+
+#include <glm/geometric.hpp>
 
 namespace microtrace {
 
@@ -67,12 +72,23 @@ void RayStream::ask_outside() {
   }
 }
 
+bool meets_open_front(const Primitives& primitives, const std::uint32_t* open, const Ray& ray,
+                      PrimitiveId id) {
+  if (open == nullptr || (open[id / 32] >> id % 32 & 1U) == 0) return false;
+  const Object& object = primitives.object(id);
+  const Triangle t = triangle_of(std::get<Mesh>(object.shape), id - primitives.first_id(id));
+  const DVec3 a(t.a);
+  return !(glm::dot(glm::cross(DVec3(t.b) - a, DVec3(t.c) - a), DVec3(ray.d)) > 0);
+}
+
 StreamFallback RayStream::fallback() {
   return {.context = this, .consider = [](void* self, int i, std::uint32_t id, ClosestSoFar& best) {
             const RayStream& stream = *static_cast<const RayStream*>(self);
             const auto place = static_cast<std::size_t>(i);
             if (!stream.is_suited(place)) return;
             const Ray own = stream.ray(place);
+            const Target& target = stream.target_;
+            if (meets_open_front(target.primitives, target.tree.open_fronts, own, id)) return;
             HitResolver(stream.target_.primitives, own).consider(id, best);
           }};
 }

@@ -34,6 +34,11 @@ struct RayColumns {
   }
 };
 
+/// True if a ray that hits primitive `id` arrives at the front of one of the triangles `open`,
+/// which has one bit per primitive or is null.
+[[nodiscard]] bool meets_open_front(const Primitives& primitives, const std::uint32_t* open,
+                                    const Ray& ray, PrimitiveId id);
+
 /// Traces up to kStreamRays rays at a time. The caller must trace rays beyond the kernels' limits.
 class RayStream {
  public:
@@ -63,6 +68,10 @@ class RayStream {
     find_any(results);
     for_each_unsuited(other);
   }
+
+  /// Sets the triangles of meshes whose fronts any() passes through, one bit per primitive; null
+  /// for none.
+  void set_open_fronts(const std::uint32_t* triangles) { target_.tree.open_fronts = triangles; }
 
   /// Do the same for rays in columns. `ids` are those of the nearest hits, or kNoPrimitive.
   void closest(const RayColumns& rays, std::span<PrimitiveId> ids, const auto& other) {

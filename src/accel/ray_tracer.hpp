@@ -21,6 +21,10 @@ class RayTracer {
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
 
+  /// True if any_behind_fronts() can be used with the Bvh, which isn't the case if triangles
+  /// coincide.
+  [[nodiscard]] bool knows_fronts() const;
+
   /// Selects the Bvh, which must outlive the following queries.
   void begin(const Bvh& bvh);
 
@@ -28,6 +32,11 @@ class RayTracer {
   void closest(const RayColumns& rays, std::span<PrimitiveId> ids);
   /// Sets results[i] to true if ray i hits anything.
   void any(const RayColumns& rays, std::span<bool> results);
+
+  /// Sets results[i] to true if ray i hits anything but the fronts of the triangles `open`, which
+  /// has one bit per primitive.
+  void any_behind_fronts(const RayColumns& rays, const std::uint32_t* open,
+                         std::span<bool> results);
 
   /// The hit of a ray with the primitive that closest() found.
   [[nodiscard]] Hit hit(const Ray& ray, PrimitiveId id) const;
@@ -40,6 +49,9 @@ class RayTracer {
   [[nodiscard]] Lanes leave(Lanes wanted, OriginLanes& lanes);
 
  private:
+  template <class AskOne>
+  void any(const RayColumns& rays, std::span<bool> results, const AskOne& ask_one);
+
   struct Queries;  // for one Bvh
   struct Memory;   // for the queries of any Bvh
   [[nodiscard]] Queries& queries() const;

@@ -180,16 +180,27 @@ inline void consider(const TriangleBlock& block, int k, const RayFromMin& ray,
     fallback(block.id[k], best);
 }
 
+inline bool is_open_front(const TreeView& tree, std::uint32_t id) {
+  return tree.open_fronts != nullptr && (tree.open_fronts[id / 32] >> id % 32 & 1U) != 0;
+}
+
 /// Sets `best` to the nearest hit among the lanes that a block's test has not rejected, if that hit
-/// is nearer. With kAny, stops at the first hit. `fallback` decides the uncertain lanes.
+/// is nearer. With kAny, stops at the first hit, and passes through open fronts. `fallback` decides
+/// the uncertain lanes.
 template <int N, bool kAny, class Slowly>
-inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, const KernelRay& ray,
-                       ClosestSoFar& best, const Slowly& fallback) {
+inline void meet_lanes(const TreeView& tree, const TriangleBlock& block, const BlockTest<N>& test,
+                       const KernelRay& ray, ClosestSoFar& best, const Slowly& fallback) {
   for (Lanes lanes = test.maybe; lanes != 0; lanes &= lanes - 1) {
     const int lane = first_lane(lanes);
     const std::uint32_t id = block.id[lane];
     // A triangle can be in several leaves.
     if (id == best.id || id == ray.omitted_id) continue;
+    if (kAny && is_open_front(tree, id)) {
+      const Within front = meets_front(block, lane, ray.d);
+      if (front == Within::unsure) fallback(id, best);
+      if (kAny && best.id != kNoPrimitive) return;
+      if (front != Within::no) continue;
+    }
     consider(block, lane, {ray.o, ray.d, ray.t_min},
              {.t = test.t(lane),
               .is_certain = (test.certain >> lane & 1U) != 0,
@@ -208,7 +219,7 @@ inline void meet_leaf(const TreeView& tree, const KernelRay& ray, ChildRef leaf,
     if (has_triangles) {
       BlockTest<N> test;
       test.run(tree.blocks[i], ray, best.hi);
-      meet_lanes<N, kAny>(tree.blocks[i], test, ray, best, fallback);
+      meet_lanes<N, kAny>(tree, tree.blocks[i], test, ray, best, fallback);
     } else {
       fallback(tree.others[i], best);
     }

@@ -61,6 +61,24 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
                   : size < -size_bound && height > height_bound;
 }
 
+/// Decides whether a ray arrives at the front of triangle k of a block.
+inline Within meets_front(const TriangleBlock& block, int k, const float* d) {
+  const float origin[3] = {0, 0, 0};
+  const NearTriangle t(block, k, origin);
+  double slope = 0, sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, l = (i + 2) % 3;
+    const double left = t.e1[j] * t.e2[l], right = t.e1[l] * t.e2[j];
+    slope += (left - right) * d[i];
+    sum += (__builtin_fabs(left) + __builtin_fabs(right)) * __builtin_fabs(double{d[i]});
+  }
+  // Twice the bound of is_left_behind(), so that every rounding of the formula in float64 has the
+  // same sign. Otherwise, results would depend on whether the compiler fuses multiply-adds.
+  const double bound = sum * (16.02 * 0x1p-53) + 0x1p-600;
+  if (slope < -bound) return Within::yes;
+  return slope > bound ? Within::no : Within::unsure;
+}
+
 /// Decides whether the line of a ray passes through triangle k of a block, including its edges.
 inline Within within_edges(const TriangleBlock& block, int k, const float* o, const float* d) {
   ++edge_test_count;

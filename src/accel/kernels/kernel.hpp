@@ -15,6 +15,8 @@ struct TreeView {
   const std::uint32_t* others;
   ChildRef root;
   const FewTriangles* few = nullptr;  ///< all primitives, if they are few triangles
+  /// One bit per primitive, or null. any_of_stream passes through the fronts of these triangles.
+  const std::uint32_t* open_fronts = nullptr;
 };
 
 /// The nearest hit so far, with its exact t in [lo, hi]. Initially lo = hi = t_max and id =
@@ -172,7 +174,8 @@ struct Kernels {
   void (*prepare_stream)(KernelStream& stream);
   /// Does what `closest` does for all rays of a prepared stream.
   void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
-  /// Finds any hit within the interval of each ray that has no hit yet.
+  /// Finds any hit within the interval of each ray that has no hit yet, except for hits of
+  /// open_fronts, for which `slow` decides if a ray's side is uncertain.
   void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
   /// Fills t with the exact parameters rounded to nearest. Returns the set of hits whose t is
   /// certainly right.

@@ -180,7 +180,8 @@ class StreamWalk {
     });
     for (int k = 0; k < hits; ++k) {
       const auto [flight, block] = hits_[k];
-      meet_lanes<N, kAny>(*block, flight->test, flight->ray, flight->best, fallback(*flight));
+      meet_lanes<N, kAny>(tree_, *block, flight->test, flight->ray, flight->best,
+                          fallback(*flight));
       ++flight->stack.size;  // pushes the popped entry again, which may be beyond the new hit
       next_[flight - flights_] = next_after_leaf(*flight);
     }

@@ -51,6 +51,12 @@ struct alignas(64) PathColumns {
   }
 };
 
+/// Rays in one array per component, as RayColumns refers to them.
+struct alignas(64) RayArrays {
+  PathFloats o[3], d[3], t_max;
+  PathNumbers left;
+};
+
 /// Shadow rays in one array per component, and the light that arrives unless they are occluded.
 struct alignas(64) ShadowColumns {
   PathFloats o[3], d[3], t_max;

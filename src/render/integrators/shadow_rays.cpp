@@ -59,11 +59,17 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
   const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
     colors[rays.slot[i]] += part * vector_of(rays.light, i);
   };
-  tracer.any(free_.columns(), std::span(occluded_).first(free_.count));
+  const std::span<bool> occluded = std::span(occluded_).first(free_.count);
+  const bool knows_blocked =
+      passes_backs_ && shading.open_fronts() != nullptr && tracer.knows_fronts();
+  if (knows_blocked)
+    tracer.any_behind_fronts(free_.columns(), shading.open_fronts(), occluded);
+  else
+    tracer.any(free_.columns(), occluded);
   for (std::size_t i = 0; i < free_.count; ++i) {
-    if (!occluded_[i]) {
+    if (!occluded[i]) {
       add(free_.rays, i, 1);
-    } else if (may_pass) {
+    } else if (may_pass && !knows_blocked) {
       const Ray ray = free_.columns()[i];
       const std::optional<Hit> hit = bvh.intersect(ray);
       add(free_.rays, i,

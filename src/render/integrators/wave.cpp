@@ -78,6 +78,7 @@ void Wave::intersect(std::span<const Ray> camera_rays) {
                      .left = paths.left,
                      .count = count_},
                     std::span(hits_).first(count_));
+    if (knows_blocked()) find_blocked();
     return;
   }
   world_->bvh.intersect(camera_rays, std::span(camera_hits_).first(count_));
@@ -165,7 +166,8 @@ Lanes Wave::add_simple(std::size_t first) {
     const TexturedMaterial& look = *group.hits.looks[k];
     const bool is_front = hits.from_behind[lane] == 0;
     if (!look.is_simple || !group.hits.meshes[k]->colors.empty() ||
-        (is_front ? looks_behind && look.has_open_back : !look.has_back) ||
+        (is_front ? looks_behind && look.has_open_back && may_get_light(first + k)
+                  : !look.has_back) ||
         vector_of(paths.absorption, first + k) != Vec3(0))
       continue;
     simple |= Lanes{1} << lane;
@@ -199,38 +201,6 @@ void Wave::prepare(std::size_t i, ShadingPoint& point) const {
   Shading::find_texel_address(point);
 }
 
-bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t layer) const {
-  const float coverage = shading_->coverage(point, paths_->pdf[i] == 0);
-  if (coverage == 0 || coverage == 1) return coverage == 1;
-  return paths_->sobol(i).one(step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs) <
-         coverage;
-}
-
-std::optional<Hit> Wave::next(std::size_t i, const Hit& hit, ShadingPoint& point) {
-  ++counts_.beyond;
-  const Ray ray = paths_->ray(i);
-  const std::optional<Hit> result = world_->bvh.next(ray, hit);
-  if (!result) return result;
-  point = shading_->point(ray, *result);
-  prepare(i, point);
-  return result;
-}
-
-Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint point,
-                               std::uint32_t layer) {
-  std::optional<Hit> hit = first;
-  while (Shading::lets_light_in(point)) {
-    do {
-      hit = next(i, *hit, point);
-      ++layer;
-      if (!hit)
-        return {.is_open = lighting_->environment(unit<1>(vector_of(paths_->d, i))) != Vec3(0)};
-    } while (!stops(i, point, layer));
-  }
-  if (!point.look->shines() || shading_->emission(point) == Vec3(0)) return {};
-  return {.hit = hit, .point = point};
-}
-
 void Wave::step_slowly(std::size_t first, int lane) {
   const std::size_t i = first + static_cast<std::size_t>(lane);
   PathColumns& paths = *paths_;
@@ -247,7 +217,7 @@ void Wave::step_slowly(std::size_t first, int lane) {
   std::uint32_t layer = 0;
   for (; hit && !stops(i, point, layer); ++layer) hit = next(i, *hit, point);
   if (!hit) return escape(i);
-  if (looks_behind() && Shading::lets_light_in(point)) {
+  if (looks_behind() && Shading::lets_light_in(point) && may_get_light(i)) {
     const Behind behind = look_behind(i, *hit, point, layer);
     if (behind.is_open) return escape(i);
     if (behind.hit) hit = behind.hit, point = behind.point;

@@ -13,10 +13,12 @@ void Wave::add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point
   const Vec3 emission = shading_->emission(point);
   if (emission == Vec3(0)) return;
   const PathColumns& paths = *paths_;
-  const Vec3 d = unit<1>(vector_of(paths.d, i));
-  const float cosine = std::abs(glm::dot(d, point.at.n)), pdf = paths.pdf[i];
-  const float other = lighting_->emitter_pdf(hit.id, paths.from(i), point.at.distance, cosine);
-  const float weight = pdf == 0 ? 1 : power_heuristic(pdf, other);
+  float weight = 1;
+  if (const float pdf = paths.pdf[i]; pdf > 0) {
+    const float cosine = std::abs(glm::dot(unit<1>(vector_of(paths.d, i)), point.at.n));
+    weight = power_heuristic(
+        pdf, lighting_->emitter_pdf(hit.id, paths.from(i), point.at.distance, cosine));
+  }
   colors_[paths.slot[i]] += vector_of(paths.throughput, i) * emission * weight;
 }
 

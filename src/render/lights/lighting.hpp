@@ -47,6 +47,9 @@ class Lighting {
   /// True if paths can reach light by chance: the environment or emissive surfaces.
   [[nodiscard]] bool may_surround() const { return environment_ || emitters_.has_surfaces(); }
 
+  /// True if paths can reach emissive surfaces by chance.
+  [[nodiscard]] bool has_surfaces() const { return emitters_.has_surfaces(); }
+
   /// True if the environment is visible to camera rays.
   [[nodiscard]] bool is_seen() const { return is_seen_; }
 

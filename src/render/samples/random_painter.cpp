@@ -1,7 +1,9 @@
 #include "render/samples/random_painter.hpp"
 
+#include "float_environment.hpp"
 #include "render/kernels/dispatch.hpp"
 #include "render/ray_batch.hpp"
+#include "render/samples/add_sample.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/tiles.hpp"
@@ -28,8 +30,9 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
   RayBatch<kRandomBatch> batch(integrator_, has_alpha_);
   std::uint64_t invalid = 0;
   const auto trace = [&] {
+    const FloatEnvironment environment;
     batch.trace(world_, [&](std::size_t pixel, const Sample& sample) {
-      if (!sums[pixel].add(sample.color, sample.alpha, background_)) ++invalid;
+      if (!add_sample(sums[pixel], sample.color, sample.alpha, background_)) ++invalid;
     });
   };
   struct Pixel {

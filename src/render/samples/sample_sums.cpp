@@ -1,6 +1,7 @@
 #include "float_environment.hpp"
 #include "render/film_pixel.hpp"
 #include "render/luminance.hpp"
+#include "render/samples/add_sample.hpp"
 
 #include <microtrace/sample_sums.hpp>
 
@@ -10,8 +11,9 @@
 #include <glm/common.hpp>
 
 namespace microtrace {
-bool PixelSum::add(const Vec3& sample, float sample_alpha, const Vec3& background) {
-  const FloatEnvironment environment;
+
+bool add_sample(PixelSum& sum, const Vec3& sample, float sample_alpha, const Vec3& background) {
+  auto& [color, alpha, square, count] = sum;
   ++count;
   // A fast path for rays that hit nothing, which are common. Only the background's luminance
   // counts.
@@ -39,6 +41,11 @@ bool PixelSum::add(const Vec3& sample, float sample_alpha, const Vec3& backgroun
   const double y = luminance(shown);
   square.add(y * y);
   return true;
+}
+
+bool PixelSum::add(const Vec3& sample, float sample_alpha, const Vec3& background) {
+  const FloatEnvironment environment;
+  return add_sample(*this, sample, sample_alpha, background);
 }
 
 PixelSum& PixelSum::operator+=(const PixelSum& other) {

@@ -1,5 +1,6 @@
 #include "render/shading/shading.hpp"
 
+#include "base/memory_account.hpp"
 #include "render/luminance.hpp"
 #include "render/shading/texture_slots.hpp"
 
@@ -70,6 +71,23 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     const Material& material = material_of(scene, object);
     all_cover_ &= !is_thin_glass(material) && material.alpha_mode == AlphaMode::opaque;
     has_open_backs_ |= looks_[entries_.back().look].has_open_back;
+  }
+  if (all_cover_ && has_open_backs_) find_open_fronts();
+}
+
+void Shading::find_open_fronts() {
+  const std::size_t count = primitives_.count();
+  take_memory(count / 8, "the one-sided surfaces of the scene");
+  open_fronts_.resize(count / 32 + 1);
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    if (!looks_[entry.look].has_open_back) continue;
+    if (entry.mesh == nullptr) {
+      open_fronts_.clear();
+      return;
+    }
+    const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
+    for (PrimitiveId id = entry.first_id; id < end; ++id) open_fronts_[id / 32] |= 1U << id % 32;
   }
 }
 

@@ -152,6 +152,16 @@ class Shading {
   /// True if lets_light_in() may return true for a point of the scene.
   [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
+  /// The triangles of open backs, one bit per primitive, if light that arrives from behind is
+  /// blocked exactly by the surfaces that are not among them or are seen from their backs;
+  /// otherwise null.
+  [[nodiscard]] const std::uint32_t* open_fronts() const {
+    return open_fronts_.empty() ? nullptr : open_fronts_.data();
+  }
+  [[nodiscard]] bool is_open_front(PrimitiveId id) const {
+    return (open_fronts_[id / 32] >> id % 32 & 1U) != 0;
+  }
+
   /// The radiance emitted toward the ray's origin; 0 on the back of one-sided surfaces. Unlit
   /// materials emit their color.
   [[nodiscard]] Vec3 emission(const ShadingPoint& point) const;
@@ -180,12 +190,14 @@ class Shading {
   [[nodiscard]] static bsdf::Parameters parameters(const ShadingPoint& point, int channel);
   [[nodiscard]] static bsdf::Layers layers(const ShadingPoint& point);
   [[nodiscard]] static Vec4 base_color(const ShadingPoint& point);
+  void find_open_fronts();
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
 
   const Primitives& primitives_;
   std::unique_ptr<TextureMaps> maps_;
   std::vector<TexturedMaterial> looks_;  // by material; the last is for objects without a material
   std::vector<Entry> entries_;           // by object
+  std::vector<std::uint32_t> open_fronts_;
   bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false;
 };
 

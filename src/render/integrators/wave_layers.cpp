@@ -1,0 +1,62 @@
+/// What the paths of a wavefront meet behind surfaces that let them or light through.
+
+#include "render/integrators/wave.hpp"
+
+namespace microtrace {
+
+void Wave::find_blocked() {
+  const PathColumns& paths = *paths_;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (hits_[i] == kNoPrimitive || !shading_->is_open_front(hits_[i])) continue;
+    put_vector(open_rays_.o, count, vector_of(paths.o, i));
+    put_vector(open_rays_.d, count, vector_of(paths.d, i));
+    open_rays_.t_max[count] = paths.t_max[i];
+    open_rays_.left[count] = paths.left[i];
+    open_paths_[count++] = i;
+  }
+  tracer_.any_behind_fronts({.o = {open_rays_.o[0], open_rays_.o[1], open_rays_.o[2]},
+                             .d = {open_rays_.d[0], open_rays_.d[1], open_rays_.d[2]},
+                             .t_max = open_rays_.t_max,
+                             .left = open_rays_.left,
+                             .count = count},
+                            shading_->open_fronts(), std::span(open_blocked_).first(count));
+  for (std::size_t k = 0; k < count; ++k) is_blocked_[open_paths_[k]] = open_blocked_[k];
+}
+
+bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t layer) const {
+  const float coverage = shading_->coverage(point, paths_->pdf[i] == 0);
+  if (coverage == 0 || coverage == 1) return coverage == 1;
+  return paths_->sobol(i).one(step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs) <
+         coverage;
+}
+
+std::optional<Hit> Wave::next(std::size_t i, const Hit& hit, ShadingPoint& point) {
+  ++counts_.beyond;
+  const Ray ray = paths_->ray(i);
+  const std::optional<Hit> result = world_->bvh.next(ray, hit);
+  if (!result) return result;
+  point = shading_->point(ray, *result);
+  prepare(i, point);
+  return result;
+}
+
+Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint point,
+                               std::uint32_t layer) {
+  const auto is_sky_lit = [&] {
+    return lighting_->environment(unit<1>(vector_of(paths_->d, i))) != Vec3(0);
+  };
+  if (knows_blocked() && !is_blocked_[i]) return {.is_open = is_sky_lit()};
+  std::optional<Hit> hit = first;
+  while (Shading::lets_light_in(point)) {
+    do {
+      hit = next(i, *hit, point);
+      ++layer;
+      if (!hit) return {.is_open = is_sky_lit()};
+    } while (!stops(i, point, layer));
+  }
+  if (!point.look->shines() || shading_->emission(point) == Vec3(0)) return {};
+  return {.hit = hit, .point = point};
+}
+
+}  // namespace microtrace
