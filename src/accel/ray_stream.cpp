@@ -113,6 +113,11 @@ void RayStream::find_closest(std::span<PrimitiveId> ids) {
   std::copy_n(stream_.best_id, count(), ids.begin());
 }
 
+void RayStream::find_any(std::span<PrimitiveId> ids) {
+  target_.kernels.any_of_stream(target_.tree, stream_, fallback());
+  std::copy_n(stream_.best_id, count(), ids.begin());
+}
+
 void RayStream::find_any(std::span<bool> results) {
   target_.kernels.any_of_stream(target_.tree, stream_, fallback());
   for (std::size_t i = 0; i < count(); ++i) results[i] = stream_.best_id[i] != kNoPrimitive;

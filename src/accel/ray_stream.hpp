@@ -73,15 +73,15 @@ class RayStream {
   /// for none.
   void set_open_fronts(const std::uint32_t* triangles) { target_.tree.open_fronts = triangles; }
 
-  /// Do the same for rays in columns. `ids` are those of the nearest hits, or kNoPrimitive.
+  /// Do the same for rays in columns. `ids` are those of the hits, or kNoPrimitive.
   void closest(const RayColumns& rays, std::span<PrimitiveId> ids, const auto& other) {
     fill(rays);
     find_closest(ids);
     for_each_unsuited(other);
   }
-  void any(const RayColumns& rays, std::span<bool> results, const auto& other) {
+  void any(const RayColumns& rays, std::span<PrimitiveId> ids, const auto& other) {
     fill(rays);
-    find_any(results);
+    find_any(ids);
     for_each_unsuited(other);
   }
 
@@ -93,6 +93,7 @@ class RayStream {
   void find_closest(const Rays& rays, std::span<std::optional<Hit>> hits);
   void find_closest(std::span<PrimitiveId> ids);
   void find_any(std::span<bool> results);
+  void find_any(std::span<PrimitiveId> ids);
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(stream_.count); }
   [[nodiscard]] Ray ray(std::size_t i) const { return rays_.empty() ? columns_[i] : rays_[i]; }
   [[nodiscard]] StreamFallback fallback();

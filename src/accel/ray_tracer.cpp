@@ -57,42 +57,31 @@ void RayTracer::closest(const RayColumns& rays, std::span<PrimitiveId> ids) {
   }
 }
 
-template <class AskOne>
-void RayTracer::any(const RayColumns& rays, std::span<bool> results, const AskOne& ask_one) {
-  if (!queries().bvh.has_tree) {
-    for (std::size_t i = 0; i < rays.count; ++i) ask_one(i);
-    return;
-  }
-  for (std::size_t first = 0; first < rays.count; first += kStreamRays) {
-    RayColumns part = rays.from(first);
-    part.count = std::min<std::size_t>(part.count, kStreamRays);
-    queries().stream.any(part, results.subspan(first, part.count),
-                         [&](std::size_t i) { ask_one(first + i); });
-  }
-}
-
-void RayTracer::any(const RayColumns& rays, std::span<bool> results) {
-  const FloatEnvironment environment;
-  const Bvh::Impl& bvh = queries().bvh;
-  any(rays, results, [&](std::size_t i) { results[i] = bvh.occluded(rays[i]); });
-}
-
 bool RayTracer::knows_fronts() const {
   return queries().bvh.tree.duplicates.empty();
 }
 
-void RayTracer::any_behind_fronts(const RayColumns& rays, const std::uint32_t* open,
-                                  std::span<bool> results) {
+void RayTracer::any(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids) {
   const FloatEnvironment environment;
   const Bvh::Impl& bvh = queries().bvh;
-  queries().stream.set_open_fronts(open);
-  any(rays, results, [&](std::size_t i) {
+  const auto ask_one = [&](std::size_t i) {
     const Ray ray = rays[i];
     std::optional<Hit> hit = bvh.intersect(ray);
     while (hit && meets_open_front(bvh.primitives, open, ray, hit->id))
       hit = bvh.next(ray, hit->id);
-    results[i] = hit.has_value();
-  });
+    ids[i] = hit ? hit->id : kNoPrimitive;
+  };
+  if (!bvh.has_tree) {
+    for (std::size_t i = 0; i < rays.count; ++i) ask_one(i);
+    return;
+  }
+  queries().stream.set_open_fronts(open);
+  for (std::size_t first = 0; first < rays.count; first += kStreamRays) {
+    RayColumns part = rays.from(first);
+    part.count = std::min<std::size_t>(part.count, kStreamRays);
+    queries().stream.any(part, ids.subspan(first, part.count),
+                         [&](std::size_t i) { ask_one(first + i); });
+  }
   queries().stream.set_open_fronts(nullptr);
 }
 

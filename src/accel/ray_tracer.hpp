@@ -21,8 +21,7 @@ class RayTracer {
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
 
-  /// True if any_behind_fronts() can be used with the Bvh, which isn't the case if triangles
-  /// coincide.
+  /// True if any() can pass through fronts, which isn't the case if triangles coincide.
   [[nodiscard]] bool knows_fronts() const;
 
   /// Selects the Bvh, which must outlive the following queries.
@@ -30,13 +29,9 @@ class RayTracer {
 
   /// Sets ids[i] to the primitive that ray i hits first, or to kNoPrimitive.
   void closest(const RayColumns& rays, std::span<PrimitiveId> ids);
-  /// Sets results[i] to true if ray i hits anything.
-  void any(const RayColumns& rays, std::span<bool> results);
-
-  /// Sets results[i] to true if ray i hits anything but the fronts of the triangles `open`, which
-  /// has one bit per primitive.
-  void any_behind_fronts(const RayColumns& rays, const std::uint32_t* open,
-                         std::span<bool> results);
+  /// Sets ids[i] to any primitive that ray i hits, or to kNoPrimitive. Passes through the fronts of
+  /// the triangles `open`, which has one bit per primitive, unless it is null.
+  void any(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids);
 
   /// The hit of a ray with the primitive that closest() found.
   [[nodiscard]] Hit hit(const Ray& ray, PrimitiveId id) const;
@@ -49,9 +44,6 @@ class RayTracer {
   [[nodiscard]] Lanes leave(Lanes wanted, OriginLanes& lanes);
 
  private:
-  template <class AskOne>
-  void any(const RayColumns& rays, std::span<bool> results, const AskOne& ask_one);
-
   struct Queries;  // for one Bvh
   struct Memory;   // for the queries of any Bvh
   [[nodiscard]] Queries& queries() const;

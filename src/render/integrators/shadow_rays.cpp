@@ -56,20 +56,19 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
   beyond_ = 0;
   // False if each surface blocks the light.
   const bool may_pass = !shading.all_cover() || (passes_backs_ && shading.has_open_backs());
+  const bool knows_fronts =
+      passes_backs_ && shading.open_fronts() != nullptr && tracer.knows_fronts();
+  // False if only surfaces that are not opaque let light through.
+  const bool may_pass_opaque = passes_backs_ && shading.has_open_backs() && !knows_fronts;
   const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
     colors[rays.slot[i]] += part * vector_of(rays.light, i);
   };
-  const std::span<bool> occluded = std::span(occluded_).first(free_.count);
-  const bool knows_blocked =
-      passes_backs_ && shading.open_fronts() != nullptr && tracer.knows_fronts();
-  if (knows_blocked)
-    tracer.any_behind_fronts(free_.columns(), shading.open_fronts(), occluded);
-  else
-    tracer.any(free_.columns(), occluded);
+  tracer.any(free_.columns(), knows_fronts ? shading.open_fronts() : nullptr,
+             std::span(hits_).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
-    if (!occluded[i]) {
+    if (hits_[i] == kNoPrimitive) {
       add(free_.rays, i, 1);
-    } else if (may_pass && !knows_blocked) {
+    } else if (may_pass_opaque || !shading.is_opaque(hits_[i])) {
       const Ray ray = free_.columns()[i];
       const std::optional<Hit> hit = bvh.intersect(ray);
       add(free_.rays, i,

@@ -52,7 +52,6 @@ class ShadowRays {
 
   Group free_, aimed_;
   std::array<PrimitiveId, kRandomBatch> hits_;  // working memory
-  std::array<bool, kRandomBatch> occluded_;
   std::uint64_t beyond_ = 0;
   bool passes_backs_ = false;
 };

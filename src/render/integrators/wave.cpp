@@ -217,7 +217,7 @@ void Wave::step_slowly(std::size_t first, int lane) {
   std::uint32_t layer = 0;
   for (; hit && !stops(i, point, layer); ++layer) hit = next(i, *hit, point);
   if (!hit) return escape(i);
-  if (looks_behind() && Shading::lets_light_in(point) && may_get_light(i)) {
+  if (looks_behind() && Shading::lets_light_in(point) && (layer > 0 || may_get_light(i))) {
     const Behind behind = look_behind(i, *hit, point, layer);
     if (behind.is_open) return escape(i);
     if (behind.hit) hit = behind.hit, point = behind.point;

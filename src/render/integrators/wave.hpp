@@ -39,7 +39,7 @@ class Wave {
   void begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids);
   /// Finds the hits of all rays.
   void intersect(std::span<const Ray> camera_rays);
-  /// Sets is_blocked_ for the rays that hit triangles with open backs.
+  /// Sets blockers_ for the rays that hit triangles with open backs.
   void find_blocked();
   /// Advances all paths by one bounce.
   void step();
@@ -86,14 +86,15 @@ class Wave {
   /// The color channel with which path i continues through the surface. At a dispersive surface, a
   /// path with all channels chooses one at random.
   [[nodiscard]] int channel_of(const Material& material, std::size_t i) const;
-  /// True if is_blocked_ tells whether a surface blocks the light behind open fronts.
+  /// True if find_blocked() can be used.
   [[nodiscard]] bool knows_blocked() const {
     return looks_behind() && shading_->open_fronts() != nullptr && tracer_.knows_fronts();
   }
-  /// True if path i, which hits the front of a surface with an open back, may get light from behind
-  /// it.
+  /// True if path i, whose first hit is the front of a surface with an open back, may get light
+  /// from behind it.
   [[nodiscard]] bool may_get_light(std::size_t i) const {
-    return !knows_blocked() || !is_blocked_[i] || lighting_->has_surfaces();
+    return !knows_blocked() || blockers_[i] == kNoPrimitive || lighting_->has_surfaces() ||
+           !shading_->is_opaque(blockers_[i]);
   }
   /// True if paths look behind the fronts of one-sided surfaces.
   [[nodiscard]] bool looks_behind() const {
@@ -118,11 +119,12 @@ class Wave {
   std::unique_ptr<PathColumns> paths_, next_paths_;
   std::array<PrimitiveId, kRandomBatch> hits_;  // kNoPrimitive for rays without a hit
   std::array<std::optional<Hit>, kRandomBatch> camera_hits_;
-  std::array<bool, kRandomBatch> is_blocked_;
+  /// Any primitive that blocks the light from behind, or kNoPrimitive.
+  std::array<PrimitiveId, kRandomBatch> blockers_;
   // Working memory of find_blocked().
   RayArrays open_rays_;
   std::array<std::size_t, kRandomBatch> open_paths_;
-  std::array<bool, kRandomBatch> open_blocked_;
+  std::array<PrimitiveId, kRandomBatch> open_blockers_;
   std::array<Vec3, kRandomBatch> colors_;
   std::array<float, kRandomBatch> alphas_;
   // The input of a BSDF with textures. A local variable would be cleared for each vertex.

@@ -15,13 +15,13 @@ void Wave::find_blocked() {
     open_rays_.left[count] = paths.left[i];
     open_paths_[count++] = i;
   }
-  tracer_.any_behind_fronts({.o = {open_rays_.o[0], open_rays_.o[1], open_rays_.o[2]},
-                             .d = {open_rays_.d[0], open_rays_.d[1], open_rays_.d[2]},
-                             .t_max = open_rays_.t_max,
-                             .left = open_rays_.left,
-                             .count = count},
-                            shading_->open_fronts(), std::span(open_blocked_).first(count));
-  for (std::size_t k = 0; k < count; ++k) is_blocked_[open_paths_[k]] = open_blocked_[k];
+  tracer_.any({.o = {open_rays_.o[0], open_rays_.o[1], open_rays_.o[2]},
+               .d = {open_rays_.d[0], open_rays_.d[1], open_rays_.d[2]},
+               .t_max = open_rays_.t_max,
+               .left = open_rays_.left,
+               .count = count},
+              shading_->open_fronts(), std::span(open_blockers_).first(count));
+  for (std::size_t k = 0; k < count; ++k) blockers_[open_paths_[k]] = open_blockers_[k];
 }
 
 bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t layer) const {
@@ -46,7 +46,8 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
   const auto is_sky_lit = [&] {
     return lighting_->environment(unit<1>(vector_of(paths_->d, i))) != Vec3(0);
   };
-  if (knows_blocked() && !is_blocked_[i]) return {.is_open = is_sky_lit()};
+  if (layer == 0 && knows_blocked() && blockers_[i] == kNoPrimitive)
+    return {.is_open = is_sky_lit()};
   std::optional<Hit> hit = first;
   while (Shading::lets_light_in(point)) {
     do {

@@ -52,6 +52,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     const bool is_textured = std::ranges::any_of(
         look.slots, [](const TextureSlot& slot) { return slot.map != nullptr; });
     look.has_back = has_back(material);
+    look.is_opaque = !is_thin_glass(material) && material.alpha_mode == AlphaMode::opaque;
     has_textures_ |= is_textured;
     // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
     if (is_textured || material.anisotropy || encloses_medium(material)) return;
@@ -68,11 +69,10 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
                         .first_id = first,
                         .look = object.material.value_or(none)});
     first += static_cast<PrimitiveId>(primitive_count(object.shape));
-    const Material& material = material_of(scene, object);
-    all_cover_ &= !is_thin_glass(material) && material.alpha_mode == AlphaMode::opaque;
+    all_cover_ &= looks_[entries_.back().look].is_opaque;
     has_open_backs_ |= looks_[entries_.back().look].has_open_back;
   }
-  if (all_cover_ && has_open_backs_) find_open_fronts();
+  if (has_open_backs_) find_open_fronts();
 }
 
 void Shading::find_open_fronts() {

@@ -69,7 +69,8 @@ struct TexturedMaterial {
   /// True if the surface is opaque, emits nothing, and has a constant BSDF on meshes without vertex
   /// colors.
   bool is_simple = false;
-  bool has_back = false;  ///< has_back(*material)
+  bool has_back = false;   ///< has_back(*material)
+  bool is_opaque = false;  ///< true if coverage() is 1 everywhere for rays other than camera rays
   /// The BSDF's input if it is the same everywhere on meshes without vertex colors.
   std::optional<BsdfInput> constant{};
 
@@ -152,11 +153,14 @@ class Shading {
   /// True if lets_light_in() may return true for a point of the scene.
   [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
-  /// The triangles of open backs, one bit per primitive, if light that arrives from behind is
-  /// blocked exactly by the surfaces that are not among them or are seen from their backs;
-  /// otherwise null.
+  /// The triangles with open backs, one bit per primitive. Null if there are none, or if other
+  /// primitives have open backs.
   [[nodiscard]] const std::uint32_t* open_fronts() const {
     return open_fronts_.empty() ? nullptr : open_fronts_.data();
+  }
+  /// True if the primitive blocks all light that doesn't arrive through an open back.
+  [[nodiscard]] bool is_opaque(PrimitiveId id) const {
+    return all_cover_ || looks_[entries_[primitives_.object_index(id)].look].is_opaque;
   }
   [[nodiscard]] bool is_open_front(PrimitiveId id) const {
     return (open_fronts_[id / 32] >> id % 32 & 1U) != 0;
