@@ -139,8 +139,8 @@ class CommandLine(ProgramTest):
                 columns = [x for x in range(width) if any(row[x] for row in drawn)]
                 lines = [y for y in range(height) if any(drawn[y])]
                 filled = max((columns[-1] - columns[0] + 1) / width, (lines[-1] - lines[0] + 1) / height)
-                self.assertGreater(filled, 0.93, (size, view))
-                self.assertLess(filled, 0.99, (size, view))
+                self.assertGreater(filled, 0.87, (size, view))
+                self.assertLess(filled, 0.93, (size, view))
             self.assertEqual(pictures[None], pictures["30,25"])
             self.assertNotEqual(pictures["front"], pictures["right"])
         self.assertNotEqual(self.picture(SCENE, "--view", "top"), self.picture(SCENE))
