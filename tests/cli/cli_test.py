@@ -267,7 +267,7 @@ class CommandLine(ProgramTest):
         cube = SOURCE / "scenes/gltf/cube.glb"
         lit = self.picture(cube, "--size", "40x30")
         self.assertEqual(self.picture(cube, "--size", "40x30", "--integrator", "path", "--spp", "64",
-                                      "--background", "0.6,0.6,0.6"), lit)
+                                      "--background", "0.25,0.25,0.25"), lit)
         self.assertNotEqual(self.picture(cube, "--size", "40x30", "--integrator", "flat"), lit)
         self.assertEqual(self.picture(SCENE, "--integrator", "flat", "--spp", "1"), self.picture(SCENE))
 

@@ -56,12 +56,26 @@ class Environments(ProgramTest):
     def test_environment_as_background(self):
         corner = lambda *options: self.picture(CUBE, "--size", "40x30", "--integrator", "path", "--spp", 1, "--tonemap",
                                                "none", *options)[2][0][:3]
-        self.assertEqual(corner("--env", "0.5,0,1"), b"\xcb\xcb\xcb")  # the default background, linear 0.6
+        self.assertEqual(corner("--env", "0.5,0,1"), b"\x89\x89\x89")  # the default background, linear 0.25
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "env"), b"\xbc\x00\xff")
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "env", "--env-intensity", "0"), b"\0\0\0")
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "#102030"), b"\x10\x20\x30")
         self.assertEqual(corner("--background", "env"), corner("--background", "env", "--env", "studio"))
         self.assertNotEqual(corner("--background", "env"), corner("--background", "env", "--env-intensity", "0.5"))
+
+    def test_default_background_contrasts_with_white_surfaces(self):
+        corners = struct.pack("<12f", -1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0)
+        asset = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 5, "material": 0}]}],
+                 "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 0}}],
+                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]}],
+                 "bufferViews": [{"buffer": 0, "byteLength": len(corners)}],
+                 "buffers": [{"byteLength": len(corners), "uri": "data:application/octet-stream;base64," + base64.b64encode(corners).decode()}]}
+        for rotation in ([0, 0, 0, 1], [-0.5**0.5, 0, 0, 0.5**0.5], [0, 0.5**0.5, 0, 0.5**0.5]):  # faces the front, up, right
+            asset["nodes"] = [{"mesh": 0, "rotation": rotation}]
+            (self.folder / "wall.gltf").write_text(json.dumps(asset))
+            rows = self.picture("wall.gltf", "--size", "40x30")[2]
+            self.assertGreater(rows[15][3 * 20] - rows[0][0], 40, rotation)
 
     def test_ground(self):
         def picture(*options):
