@@ -41,8 +41,9 @@ using IntegratorOptions = std::variant<FlatOptions, PathOptions, Aov>;
 [[nodiscard]] MICROTRACE_EXPORT std::uint32_t default_samples(const IntegratorOptions& integrator);
 
 /// Returns the default background in linear Rec. 709, or nothing to keep the scene's own
-/// background. Path-traced glTF assets, which can't specify a background, get a gray that is
-/// lighter than shadows and darker than highlights.
+/// background. Path-traced glTF assets, which can't specify a background, get the gray 0.25, which
+/// the default tone map shows as 127 of 255. Surfaces of reflectance 0.8, the default of many
+/// programs, are about as bright as 0.6 in the studio and would vanish before a light gray.
 [[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> default_background(
     SceneFormat format, const IntegratorOptions& integrator);
 

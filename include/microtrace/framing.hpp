@@ -23,9 +23,10 @@ struct View {
 };
 
 /// Finds a perspective camera for a picture of a given size. All bounded shapes lie within the
-/// inner 96 % of the picture's width and height. They touch two opposite edges of this region and
-/// are centered along the other axis. The camera keeps a distance from the nearest point, measured
-/// along the viewing direction, of at least 1/64 of the diagonal of the shapes' bounding box.
+/// inner 90 % of the picture's width and height. They touch two opposite edges of this region.
+/// Along the other axis, their margins are equal to within 7 % of the picture, mostly to within
+/// 0.2 %. The camera keeps a distance from the nearest point, measured along the viewing direction,
+/// of at least 1/64 of the diagonal of the shapes' bounding box.
 ///
 /// Planes, quadrics other than ellipsoids, and vertices that are not finite are ignored. If all
 /// shapes coincide in one point, the camera is at distance 1 from that point; without shapes, from
@@ -62,11 +63,23 @@ class MICROTRACE_EXPORT Framing {
 
   DVec3 right_, up_, back_;  // orthonormal
   double vertical_fov_;      // radians
-  double slope_x_, slope_y_;
-  // The outward normals of the frustum's four sides and back_, and the maximum extent of the shapes
-  // along each of these directions.
-  std::array<DVec3, 5> directions_;
-  std::array<double, 5> reach_;
+  // The maximum extents of the shapes along the outward normals of frustums of several slopes, on
+  // two opposite sides. Slopes are multiples of the greatest; 0 has the index 0.
+  struct Sides {
+    static constexpr std::size_t kSlopes = 5;
+
+    DVec3 axis;    // right_ or up_
+    double slope;  // the greatest, which belongs to the filled part of the picture
+    std::array<double, kSlopes> positive, negative;
+
+    [[nodiscard]] double slope_at(std::size_t k) const;
+    // Returns the least z of a camera that sees all shapes between the greatest slopes.
+    [[nodiscard]] double least_z() const;
+    // Returns the position along the axis at which the margins are equal for a camera at z.
+    [[nodiscard]] double centered(double z) const;
+  };
+  std::array<Sides, 2> sides_;
+  double reach_;      // maximum extent along back_
   DVec3 low_, high_;  // the bounding box
   std::optional<DVec3> origin_;
 };

@@ -178,6 +178,12 @@ typedef enum mt_integrator {
   MT_PATH = 2     /* path tracing */
 } mt_integrator;
 
+/* Formulas for surfaces. */
+typedef enum mt_bsdf {
+  MT_CONSERVING = 0, /* returns the light that the formulas of the glTF specification lose */
+  MT_SPEC = 1        /* the formulas of the glTF specification */
+} mt_bsdf;
+
 typedef struct mt_camera {
   double position[3];
   double target[3];
@@ -205,6 +211,7 @@ typedef struct mt_render_options {
   /* Nonzero: removes noise by the library Open Image Denoise, for MT_PATH. mt_render() returns
    * MT_UNSUPPORTED before rendering if the library is not installed. */
   int32_t denoise;
+  int32_t bsdf; /* one of mt_bsdf, for MT_PATH */
 } mt_render_options;
 
 MT_API void mt_render_options_init(mt_render_options* options);

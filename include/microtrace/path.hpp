@@ -20,6 +20,16 @@ enum class Backfaces {
   occlude,  ///< paths are blocked, so one-sided walls block sunlight that comes from behind them
 };
 
+/// The formulas for surfaces.
+enum class BsdfModel {
+  conserving,  ///< returns the light that the specification's formulas lose between microfacets and
+               ///< between layers; reciprocal
+  /// The formulas that glTF 2.0, appendix B, and the material extensions give, for comparisons with
+  /// renderers that implement them. Rough metals are darker, and smooth sheen may reflect more
+  /// light than it receives.
+  spec,
+};
+
 /// A horizontal plane that shows only shadows: a shadow catcher. Camera rays meet it from above
 /// where they meet no surface. There, the picture is black with the occluded fraction of the
 /// ground's light as alpha, or the environment is darkened by this fraction if it is the
@@ -35,6 +45,7 @@ struct PathOptions {
   /// The maximum path length: 1 is emission only, 2 adds direct light. At least 1.
   std::uint32_t max_depth = 32;
   Backfaces backfaces = Backfaces::pass;
+  BsdfModel bsdf = BsdfModel::conserving;
   std::optional<Ground> ground{};
 };
 

@@ -206,6 +206,7 @@ def render(
     filter: Literal["box", "blackman-harris"] = "box",
     seed: int = 0,
     max_depth: int = 32,
+    bsdf: Literal["conserving", "spec"] = "conserving",
     ground: bool | float = False,
     crop: tuple[int, int, int, int] | None = None,
     denoise: bool = False,
@@ -232,6 +233,9 @@ def render(
         filter: the pixel filter.
         seed: random seed. Different seeds give different noise.
         max_depth: maximum path length. 1 shows only emission; 2 adds direct light.
+        bsdf: the formulas for surfaces. "conserving" keeps the energy of light that is scattered
+            several times; "spec" has those of the glTF specification, for comparisons with other
+            renderers.
         ground: adds a horizontal ground that shows only shadows, so a path-traced model doesn't
             seem to float: at this y or, if True, at the lowest point of the scene. With
             transparent=True, shadows are black with alpha.
@@ -293,6 +297,7 @@ def render(
         "filter": filter,
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
         "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
+        "bsdf": bsdf,
         "ground": _ground_arguments(ground, method),
         "crop": crop,
         "shutter": None if shutter is None else _shutter_arguments(shutter),

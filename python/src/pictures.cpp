@@ -128,11 +128,18 @@ void copy_colors(const Film& film, const Pixels<float>& to) {
   }
 }
 
+BsdfModel model_named(const std::string& name) {
+  if (name == "conserving") return BsdfModel::conserving;
+  if (name == "spec") return BsdfModel::spec;
+  throw nb::value_error("bsdf must be \"conserving\" or \"spec\"");
+}
+
 IntegratorOptions integrator_of(const std::string& name, const nb::dict& arguments) {
   if (name == "flat") return FlatOptions{};
   if (name != "path") throw nb::value_error("integrator must be \"path\" or \"flat\"");
   PathOptions options;
   options.max_depth = nb::cast<std::uint32_t>(arguments["max_depth"]);
+  options.bsdf = model_named(nb::cast<std::string>(arguments["bsdf"]));
   if (const nb::object ground = arguments["ground"]; !ground.is_none())
     options.ground = Ground{.height = nb::cast<std::optional<double>>(ground["height"])};
   return options;

@@ -45,7 +45,7 @@ def test_ranges_of_tiles_cover_pictures(size):
     [
         ("gltf/materials.glb", {"size": (83, 47), "spp": 4, "aovs": ["color", "id", "variance"]}),
         ("gltf/materials.glb", {"size": (83, 47), "aovs": ["depth", "uv"]}),
-        ("gltf/materials.glb", {"size": (83, 47), "spp": 1, "exposure": 3}),
+        ("gltf/materials.glb", {"size": (83, 47), "spp": 1, "exposure": 3, "bsdf": "spec"}),
         ("gltf/materials.glb", {"size": (83, 47), "spp": 1, "exposure": "auto"}),
         ("gltf/materials.glb", {"size": (83, 47), "spp": 1, "ground": True, "transparent": True}),
         ("perspective1.json", {}),

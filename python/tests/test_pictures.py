@@ -40,6 +40,7 @@ def run(program, *arguments):
         ),
         (KNOT, ["--samples", 2, "--background", "transparent"], {"spp": 2, "transparent": True}),
         (KNOT, ["--samples", 2, "--max-depth", 2], {"spp": 2, "max_depth": 2}),
+        (MATERIALS, ["--samples", 2, "--bsdf", "spec"], {"spp": 2, "bsdf": "spec"}),
         (
             KNOT,
             ["--samples", 2, "--env", "0.5,0.25,1", "--background", "0.1,0.2,0.3"],
@@ -198,6 +199,7 @@ def test_wrong_arguments():
         ({"aovs": []}, "at least one"),
         ({"integrator": "x"}, "integrator"),
         ({"filter": "gauss"}, "filter"),
+        ({"bsdf": "phong"}, "bsdf must be"),
         ({"size": (0, 10)}, "size must be from 1 to 65536"),
         ({"size": (1, 2, 3)}, "a width and a height"),
         ({"spp": -1}, "spp must be from 1"),

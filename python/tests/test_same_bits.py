@@ -40,7 +40,7 @@ for name in names:
 print(digest.hexdigest())
 """
 
-EXPECTED = "bdb9934694c274ad883f5bd10227467e2881738d13b0497f525763c6e43db452"
+EXPECTED = "73e0000096339c756978c4a396520bfff3017aee8fe63ffd93c563368baff150"
 
 
 @pytest.mark.parametrize("instruction_set", ["portable", "avx2", "avx512"])

@@ -38,8 +38,12 @@ IntegratorOptions integrator_of(const mt_render_options& options, SceneFormat fo
   } else if (options.integrator != MT_DEFAULT) {
     refuse("mt_render_options::integrator is none of mt_integrator");
   }
-  auto* path = std::get_if<PathOptions>(&integrator);
-  if (path != nullptr && options.max_depth != 0) path->max_depth = options.max_depth;
+  if (options.bsdf != MT_CONSERVING && options.bsdf != MT_SPEC)
+    refuse("mt_render_options::bsdf is none of mt_bsdf");
+  if (auto* path = std::get_if<PathOptions>(&integrator)) {
+    if (options.max_depth != 0) path->max_depth = options.max_depth;
+    if (options.bsdf == MT_SPEC) path->bsdf = BsdfModel::spec;
+  }
   return integrator;
 }
 

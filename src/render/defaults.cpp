@@ -33,7 +33,7 @@ std::uint32_t default_samples(const IntegratorOptions& integrator) {
 
 std::optional<Vec3> default_background(SceneFormat format, const IntegratorOptions& integrator) {
   const bool is_path = std::holds_alternative<PathOptions>(integrator);
-  if (format == SceneFormat::gltf && is_path) return Vec3(0.6F);
+  if (format == SceneFormat::gltf && is_path) return Vec3(0.25F);
   return std::nullopt;
 }
 

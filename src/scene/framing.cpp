@@ -14,7 +14,8 @@
 namespace microtrace {
 namespace {
 
-constexpr double kFilled = 0.96;
+/// The part of the picture that shapes may fill. The rest is air around them.
+constexpr double kFilled = 0.9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -27,16 +28,27 @@ Framing::Framing(const View& view, ImageSize size) : low_(kInfinity), high_(-kIn
   up_ = {-sin_e * sin_a, cos_e, -sin_e * cos_a};
   back_ = {cos_e * sin_a, sin_e, cos_e * cos_a};
   vertical_fov_ = radians_from_degrees(view.vertical_fov);
-  slope_y_ = kFilled * sin_degrees(view.vertical_fov / 2) / cos_degrees(view.vertical_fov / 2);
-  slope_x_ = slope_y_ * size.width / size.height;
-  directions_ = {right_ + slope_x_ * back_, slope_x_ * back_ - right_, up_ + slope_y_ * back_,
-                 slope_y_ * back_ - up_, back_};
-  reach_.fill(-kInfinity);
+  const double slope_y =
+      kFilled * sin_degrees(view.vertical_fov / 2) / cos_degrees(view.vertical_fov / 2);
+  sides_[0].axis = right_, sides_[0].slope = slope_y * size.width / size.height;
+  sides_[1].axis = up_, sides_[1].slope = slope_y;
+  for (Sides& sides : sides_) {
+    sides.positive.fill(-kInfinity);
+    sides.negative.fill(-kInfinity);
+  }
+  reach_ = -kInfinity;
 }
 
 void Framing::add(const DVec3& point) {
-  for (std::size_t k = 0; k < reach_.size(); ++k) {
-    reach_[k] = std::max(reach_[k], glm::dot(directions_[k], point));
+  const double back = glm::dot(back_, point);
+  reach_ = std::max(reach_, back);
+  for (Sides& sides : sides_) {
+    const double along = glm::dot(sides.axis, point);
+    for (std::size_t k = 0; k < Sides::kSlopes; ++k) {
+      const double near = sides.slope_at(k) * back;
+      sides.positive[k] = std::max(sides.positive[k], near + along);
+      sides.negative[k] = std::max(sides.negative[k], near - along);
+    }
   }
   low_ = glm::min(low_, point);
   high_ = glm::max(high_, point);
@@ -44,8 +56,15 @@ void Framing::add(const DVec3& point) {
 
 template <class Support>
 void Framing::add_support(const Support& support, const DVec3& shift) {
-  for (std::size_t k = 0; k < reach_.size(); ++k) {
-    reach_[k] = std::max(reach_[k], support(directions_[k]) + glm::dot(directions_[k], shift));
+  const auto extend = [&](double& reach, const DVec3& direction) {
+    reach = std::max(reach, support(direction) + glm::dot(direction, shift));
+  };
+  extend(reach_, back_);
+  for (Sides& sides : sides_) {
+    for (std::size_t k = 0; k < Sides::kSlopes; ++k) {
+      extend(sides.positive[k], sides.slope_at(k) * back_ + sides.axis);
+      extend(sides.negative[k], sides.slope_at(k) * back_ - sides.axis);
+    }
   }
   for (glm::length_t axis = 0; axis < 3; ++axis) {
     DVec3 unit(0);
@@ -66,21 +85,41 @@ void Framing::add(const Scene& scene) {
   }
 }
 
+double Framing::Sides::slope_at(std::size_t k) const {
+  return slope * static_cast<double>(k) / (kSlopes - 1);
+}
+
 // Let s be the slope of the frustum's right and left sides. A camera at x right + y up + z back
 // sees a point p inside the right side if (right + s back) . p <= x + s z, and inside the left side
 // if (s back - right) . p <= s z - x. The least z for which all points satisfy both makes both
 // equalities for the extreme points. The same applies to the top and bottom sides.
+double Framing::Sides::least_z() const {
+  return (positive.back() + negative.back()) / (2 * slope);
+}
+
+// For a given z, the extreme points satisfy both equalities at the slope s for which the sum of
+// both extents is 2 s z. The extents are convex functions of s, so those interpolated between two
+// slopes are at least the actual ones, and all points remain within the greatest slope.
+double Framing::Sides::centered(double z) const {
+  const auto excess = [&](std::size_t k) {
+    return positive[k] + negative[k] - 2 * slope_at(k) * z;
+  };
+  std::size_t k = kSlopes - 1;
+  while (k > 1 && excess(k - 1) < 0) --k;
+  const double below = excess(k - 1), above = excess(k);
+  const double share = below > above ? std::clamp(below / (below - above), 0.0, 1.0) : 1;
+  const auto middle = [&](std::size_t i) { return (positive[i] - negative[i]) / 2; };
+  return middle(k - 1) + share * (middle(k) - middle(k - 1));
+}
+
 PerspectiveCamera Framing::camera() const {
   const FloatEnvironment environment;
   const bool point = is_empty() || low_ == high_;
   DVec3 position = is_empty() ? back_ : low_ + back_;
   if (!point) {
     const double diagonal = std::sqrt(glm::dot(high_ - low_, high_ - low_));
-    const double x = (reach_[0] - reach_[1]) / 2, y = (reach_[2] - reach_[3]) / 2;
-    const double z =
-        std::max({(reach_[0] + reach_[1]) / (2 * slope_x_),
-                  (reach_[2] + reach_[3]) / (2 * slope_y_), reach_[4] + diagonal / 64});
-    position = right_ * x + up_ * y + back_ * z;
+    const double z = std::max({sides_[0].least_z(), sides_[1].least_z(), reach_ + diagonal / 64});
+    position = right_ * sides_[0].centered(z) + up_ * sides_[1].centered(z) + back_ * z;
   }
   return camera_at(position);
 }

@@ -269,7 +269,17 @@ static void pictures(const mt_scene* scene, const char* folder) {
   options.integrator = MT_PATH;
   options.samples = 2;
   CHECK(mt_render(scene, &options, &film) == MT_OK);
+  CHECK(mt_film_rgba(film, rgba[0][0]) == MT_OK);
   mt_film_release(film);
+  options.bsdf = MT_SPEC;
+  CHECK(mt_render(scene, &options, &film) == MT_OK);
+  static float spec[48][64][4];
+  CHECK(mt_film_rgba(film, spec[0][0]) == MT_OK);
+  CHECK(memcmp(rgba, spec, sizeof spec) != 0);
+  mt_film_release(film);
+  options.bsdf = 2;
+  CHECK(mt_render(scene, &options, &film) == MT_USAGE);
+  options.bsdf = MT_CONSERVING;
   const mt_camera blind = {{0, 0, 5}, {0, 0, 5}, {0, 1, 0}, 45};
   options.camera = &blind;
   CHECK(mt_render(scene, &options, &film) == MT_USAGE);

@@ -97,7 +97,7 @@ class Completion(ProgramTest):
 
     def test_completed_words_are_accepted(self):
         for option in ("--integrator", "--aov", "--tonemap", "--view", "--background", "--env", "--filter", "--ppm",
-                       "--progress", "--backfaces"):
+                       "--progress", "--backfaces", "--bsdf"):
             words = self.complete_in_bash("microtrace", option, "") - {"script.bash"}
             self.assertGreater(len(words), 0, option)
             for word in words:

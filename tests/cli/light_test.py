@@ -22,6 +22,19 @@ SOURCE = Path(sys.argv[2]).resolve()
 CUBE = SOURCE / "scenes/gltf/cube.glb"
 
 
+def wall(rotation):
+    """Returns an asset with a one-sided white square, which faces +z before the rotation by a quaternion."""
+    corners = struct.pack("<12f", -1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0)
+    uri = "data:application/octet-stream;base64," + base64.b64encode(corners).decode()
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "rotation": rotation}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 5, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 0}}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(corners)}],
+        "buffers": [{"byteLength": len(corners), "uri": uri}]})
+
+
 class Environments(ProgramTest):
     def draw(self, *options):
         return self.run_program(CUBE, "--size", "40x30", "-o", "out.ppm", *options)
@@ -56,12 +69,18 @@ class Environments(ProgramTest):
     def test_environment_as_background(self):
         corner = lambda *options: self.picture(CUBE, "--size", "40x30", "--integrator", "path", "--spp", 1, "--tonemap",
                                                "none", *options)[2][0][:3]
-        self.assertEqual(corner("--env", "0.5,0,1"), b"\xcb\xcb\xcb")  # the default background, linear 0.6
+        self.assertEqual(corner("--env", "0.5,0,1"), b"\x89\x89\x89")  # the default background, linear 0.25
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "env"), b"\xbc\x00\xff")
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "env", "--env-intensity", "0"), b"\0\0\0")
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "#102030"), b"\x10\x20\x30")
         self.assertEqual(corner("--background", "env"), corner("--background", "env", "--env", "studio"))
         self.assertNotEqual(corner("--background", "env"), corner("--background", "env", "--env-intensity", "0.5"))
+
+    def test_default_background_contrasts_with_white_surfaces(self):
+        for rotation in ([0, 0, 0, 1], [-0.5**0.5, 0, 0, 0.5**0.5], [0, 0.5**0.5, 0, 0.5**0.5]):  # faces the front, up, right
+            (self.folder / "wall.gltf").write_text(wall(rotation))
+            rows = self.picture("wall.gltf", "--size", "40x30")[2]
+            self.assertGreater(rows[15][3 * 20] - rows[0][0], 40, rotation)
 
     def test_ground(self):
         def picture(*options):
@@ -283,6 +302,17 @@ class DarkPictures(ProgramTest):
         self.assertEqual(self.warnings({}, "--camera", "away", "--background", "env"), "")
         self.assertEqual(self.warnings({}, "--camera", "away", "--crop", "0,0,5,5"), "")
         self.assertIn("the camera sees nothing", self.warnings({}, "--eye", "0,0,9", "--target", "0,0,18"))
+
+    def test_framed_scenes_that_face_away(self):
+        (self.folder / "wall.gltf").write_text(wall([0, 1, 0, 0]))  # faces -z
+
+        def warnings(*options):
+            return self.run_program("wall.gltf", "--size", "16x12", "--spp", 1, "-o", "out.ppm", *options).stderr.decode()
+
+        self.assertIn("face away; look from the opposite side with --view 210,-25", warnings())
+        self.assertIn("face away; look from another side with --view", warnings("--view", "front"))
+        self.assertIn("with --camera", warnings("--eye", "0,0,9", "--target", "0,0,18"))
+        self.assertNotIn("warning", warnings("--view", "210,-25"))
 
     def test_strict_refuses(self):
         self.assertIn("most of the visible scene is black", self.warnings({"lights": [self.lamp(0)]}, "--strict", code=3))

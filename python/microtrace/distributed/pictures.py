@@ -129,6 +129,7 @@ def render(
     filter: Literal["box", "blackman-harris"] = "box",
     seed: int = 0,
     max_depth: int = 32,
+    bsdf: Literal["conserving", "spec"] = "conserving",
     ground: bool | float = False,
     denoise: bool = False,
     exposure: float | Literal["auto"] | None = None,
@@ -148,7 +149,7 @@ def render(
         scene: the scene.
         camera, size, spp, aovs: see microtrace.render().
         integrator, environment, background, transparent: see microtrace.render().
-        filter, seed, max_depth, ground: see microtrace.render().
+        filter, seed, max_depth, bsdf, ground: see microtrace.render().
         exposure: see microtrace.render().
         denoise: see microtrace.render(). The client denoises the finished pictures.
         threads: number of threads of each task; 0 means all processors of the worker's machine.
@@ -188,6 +189,7 @@ def render(
         "filter": filter,
         "seed": seed,
         "max_depth": max_depth,
+        "bsdf": bsdf,
         "ground": ground,
         "exposure": exposure,
         "threads": threads,

@@ -37,20 +37,21 @@ constexpr std::array kPictureOptions{
            .default_value = "the whole picture",
            .samples = Samples::change,
            .set = [](Arguments& a, const OptionValue& value) { a.crop = parse_crop(value); }},
-    Option{.names = "--background",
-           .metavar = "COLOR",
-           .help = "color behind all objects: #rrggbb in sRGB, r,g,b in linear light from "
-                   "0 to 1, env (the environment), or transparent (an alpha channel)",
-           .default_value = "0.6,0.6,0.6 for path-traced glTF; otherwise the scene's, else black",
-           .samples = Samples::change,
-           .words =
-               [] {
-                 return std::vector<std::string>{"env", "transparent"};
-               },
-           .set =
-               [](Arguments& a, const OptionValue& value) {
-                 a.environment.background = parse_background(value);
-               }},
+    Option{
+        .names = "--background",
+        .metavar = "COLOR",
+        .help = "color behind all objects: #rrggbb in sRGB, r,g,b in linear light from "
+                "0 to 1, env (the environment), or transparent (an alpha channel)",
+        .default_value = "0.25,0.25,0.25 for path-traced glTF; otherwise the scene's, else black",
+        .samples = Samples::change,
+        .words =
+            [] {
+              return std::vector<std::string>{"env", "transparent"};
+            },
+        .set =
+            [](Arguments& a, const OptionValue& value) {
+              a.environment.background = parse_background(value);
+            }},
     Option{
         .names = "--aov",
         .metavar = "LIST",

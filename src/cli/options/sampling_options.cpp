@@ -15,6 +15,8 @@ constexpr std::array kFilters{Choice<PixelFilter>{"box", PixelFilter::box},
                               Choice<PixelFilter>{"blackman-harris", PixelFilter::blackman_harris}};
 constexpr std::array kBackfaces{Choice<Backfaces>{"pass", Backfaces::pass},
                                 Choice<Backfaces>{"occlude", Backfaces::occlude}};
+constexpr std::array kBsdfModels{Choice<BsdfModel>{"conserving", BsdfModel::conserving},
+                                 Choice<BsdfModel>{"spec", BsdfModel::spec}};
 
 std::vector<std::string> quality_names() {
   return names_of(kQualities);
@@ -85,6 +87,16 @@ constexpr std::array kSamplingOptions{
         .words = [] { return names_of(kBackfaces); },
         .set = [](Arguments& a,
                   const OptionValue& value) { a.path.backfaces = value.choice(kBackfaces); }},
+    Option{.names = "--bsdf",
+           .metavar = "MODEL",
+           .help = "formulas for surfaces: conserving (keeps the energy of light that is scattered "
+                   "several times) or spec (those of the glTF specification, for comparisons with "
+                   "other renderers)",
+           .default_value = "conserving",
+           .samples = Samples::change,
+           .words = [] { return names_of(kBsdfModels); },
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.path.bsdf = value.choice(kBsdfModels); }},
 };
 static_assert(is_complete(kSamplingOptions));
 

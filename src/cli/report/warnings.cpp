@@ -17,6 +17,17 @@ std::string camera_name(const Arguments& arguments, const Scene& scene) {
   return "the camera " + (options.camera.empty() ? scene.cameras[0].name : options.camera);
 }
 
+/// What to do if nothing is visible. A camera that frames the whole scene sees only the backs of
+/// one-sided surfaces, whose fronts the opposite camera sees.
+std::string remedy_for_emptiness(const CameraOptions& options, const Scene& scene) {
+  if (options.is_of_scene() && scene.cameras.empty())
+    return "its surfaces may be one-sided and face away; look from the opposite side with --view "
+           "210,-25";
+  if (options.orbit && !options.orbit->distance)
+    return "its surfaces may be one-sided and face away; look from another side with --view";
+  return "choose another one with --camera, or frame the whole scene with --view 30,25";
+}
+
 bool is_dark(const Light& light) {
   return std::visit([](const auto& l) { return l.intensity == 0 || l.color == Vec3(0); }, light);
 }
@@ -94,9 +105,8 @@ std::string lights_text(const Scene& scene) {
 std::optional<Diagnostic> picture_warning(const FilmView& view, const Arguments& arguments,
                                           const Scene& scene) {
   if (view.is_empty && !arguments.crop && !scene.objects.empty()) {
-    return warning_about(arguments, camera_name(arguments, scene) +
-                                        " sees nothing of the scene; choose another one with "
-                                        "--camera, or frame the whole scene with --view 30,25");
+    return warning_about(arguments, camera_name(arguments, scene) + " sees nothing of the scene; " +
+                                        remedy_for_emptiness(arguments.camera, scene));
   }
   if (!view.is_dark || !arguments.is_path_traced() || arguments.path.max_depth == 1)
     return std::nullopt;

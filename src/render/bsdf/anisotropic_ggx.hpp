@@ -36,6 +36,9 @@ class AnisotropicGgx {
     return 0.5F / (wi.z * root(wo) + wo.z * root(wi));
   }
 
+  /// KHR_materials_anisotropy gives the height-correlated term, unlike glTF's section B.3.2.
+  [[nodiscard]] F spec_visibility(const V& wo, const V& wi) const { return visibility(wo, wi); }
+
   [[nodiscard]] F reflected_pdf(const V& wo, const F& distribution) const {
     return distribution / (2 * (wo.z + root(wo)));
   }

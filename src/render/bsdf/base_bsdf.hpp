@@ -29,6 +29,10 @@ namespace microtrace::bsdf {
 /// the squared relative index of refraction, because the factors for entering and leaving a volume
 /// cancel.
 ///
+/// With Features::is_spec, the formulas are those of the specification: the diffuse part and the
+/// transmitted light are scaled by what the dielectric's microfacet with the half vector does not
+/// reflect, in the brightest color channel, and nothing is compensated.
+///
 /// Parts is a struct with the member types FeaturesType (Features or PlainFeatures), Microfacets
 /// (Ggx<N> or AnisotropicGgx<N>) and MicrofacetAlbedo.
 template <int N, class Parts>
@@ -63,6 +67,12 @@ class BaseBsdf {
  private:
   static constexpr bool kIsPlain = __is_same(FeaturesType, PlainFeatures);
 
+  /// The fractions of light that a microfacet reflects, and that enter the dielectric.
+  struct Shares {
+    V reflected, entering;
+    F diffuse;  ///< reaches the diffuse part; 0 without Features::is_spec
+  };
+
   /// The energy that single scattering loses for F = 1, and the energy that the dielectric's
   /// microfacets pass on to the diffuse part.
   struct Left {
@@ -77,6 +87,14 @@ class BaseBsdf {
                           const Albedo<N>& deficit) const;
   [[nodiscard]] Left left(const Coating<N>* coating, const V& w) const;
   [[nodiscard]] Left mean_left(const Coating<N>* coating) const;
+  /// The factors of wi. `shares` are those of the microfacet whose normal is the half vector.
+  [[nodiscard]] Left left(const Coating<N>* coating, const V& wi, const Shares& shares) const {
+    return features_.is_spec ? Left{.f1 = F{}, .diffuse = shares.diffuse} : left(coating, wi);
+  }
+  /// G2 / (4 z_o z_i) for a wi above the surface.
+  [[nodiscard]] F visibility(const V& wi) const {
+    return features_.is_spec ? ggx_.spec_visibility(wo_, wi) : ggx_.visibility(wo_, wi);
+  }
 
   [[nodiscard]] Evaluation<N> above(const Coating<N>* coating, const V& wi, const V& h) const;
   [[nodiscard]] Evaluation<N> below(const Coating<N>* coating, const V& wi, const V& h) const;
@@ -85,11 +103,15 @@ class BaseBsdf {
                         const F& several);
   void add_refraction_loss(const Surface<N>& surface);
 
-  /// The fractions of light that microfacets reflect, and that enter the dielectric.
-  struct Shares {
-    V reflected, entering;
+  /// The angle of incidence for Schlick's term, which is that in the medium with the lower index of
+  /// refraction.
+  struct Incidence {
+    F cosine;
+    F is_total;  ///< 1 for total reflection, otherwise 0
   };
+  [[nodiscard]] Incidence incidence(const F& cosine) const;
   [[nodiscard]] Shares shares(const F& cosine) const;
+  [[nodiscard]] Shares spec_shares(const F& cosine) const;
   [[nodiscard]] V reflectance(const Schlick<N>& schlick, const F& cosine) const;
   /// The probability of sampling reflection, given a sampled microfacet normal.
   [[nodiscard]] F reflection_probability(const Shares& shares) const;

@@ -11,7 +11,6 @@ V mirrored(const V& w) {
   return {w.x, w.y, -w.z};
 }
 
-// Schlick's term uses the angle in the medium with the lower index of refraction.
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::reflectance(const Schlick<N>& schlick, const F& cosine) const -> V {
   if (!features_.has_film) return schlick(cosine);
@@ -19,15 +18,19 @@ auto BaseBsdf<N, Parts>::reflectance(const Schlick<N>& schlick, const F& cosine)
 }
 
 template <int N, class Parts>
+auto BaseBsdf<N, Parts>::incidence(const F& cosine) const -> Incidence {
+  if (!features_.refracts) return {cosine, F{}};
+  const F square = 1 - (1 - cosine * cosine) / (eta_ * eta_);
+  const auto from_denser = eta_<1, enters = square> 0;
+  return {from_denser ? square_root<N>(enters ? square : F{}) : cosine,
+          from_denser ? (enters ? F{} : all<N>(1)) : F{}};
+}
+
+template <int N, class Parts>
 auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
-  if (!features_.transmits) return {reflectance(specular_, angle_cosine), all3<N>(0)};
-  F cosine = angle_cosine, is_total{};
-  if (features_.refracts) {
-    const F square = 1 - (1 - cosine * cosine) / (eta_ * eta_);
-    const auto from_denser = eta_<1, enters = square> 0;
-    cosine = from_denser ? square_root<N>(enters ? square : F{}) : cosine;
-    is_total = from_denser ? (enters ? F{} : all<N>(1)) : F{};
-  }
+  if (features_.is_spec) return spec_shares(angle_cosine);
+  if (!features_.transmits) return {reflectance(specular_, angle_cosine), all3<N>(0), F{}};
+  const auto [cosine, is_total] = incidence(angle_cosine);
   const auto is_opaque = is_zero(transmitted_);
   V reflected = reflectance(dielectric_, cosine);
   const V entering = complement(reflected) * transmitted_;
@@ -42,7 +45,19 @@ auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
   if (any(is_opaque)) reflected = select3(is_opaque, reflectance(specular_, cosine), reflected);
   const V none = all3<N>(0);
   return {select3(is_total != 0, all3<N>(1), reflected),
-          select3((is_total != 0) | is_opaque, none, entering)};
+          select3((is_total != 0) | is_opaque, none, entering), F{}};
+}
+
+// fresnel_mix of KHR_materials_specular and rgb_mix of KHR_materials_iridescence, which equal the
+// fresnel_mix of glTF 2.0, section B.3.5, if the reflectance is gray. Metal and dielectric are
+// mixed as in section B.2.
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::spec_shares(const F& angle_cosine) const -> Shares {
+  const auto [cosine, is_total] = incidence(angle_cosine);
+  const V dielectric = select3(is_total != 0, all3<N>(1), reflectance(dielectric_, cosine));
+  const F left = 1 - greatest_component(dielectric);
+  return {mixed(dielectric, reflectance(metal_, cosine), metallic_),
+          features_.transmits ? V(left * transmitted_) : all3<N>(0), left};
 }
 
 template <int N, class Parts>
@@ -57,8 +72,8 @@ template <int N, class Parts>
 Evaluation<N> BaseBsdf<N, Parts>::above(const Coating<N>* coating, const V& wi, const V& h) const {
   const F d = ggx_.distribution(h);
   const Shares facet = shares(smaller_of(dot(wo_, h), all<N>(1)));
-  const Left there = left(coating, wi);
-  V single = facet.reflected * (d * ggx_.visibility(wo_, wi));
+  const Left there = left(coating, wi, facet);
+  V single = facet.reflected * (d * visibility(wi));
   if (coating != nullptr) single *= transmittance(*coating, wi);
   V f = single + diffuse_ * there.diffuse + multiple_ * there.f1;
   F facets = facet_probability_, rest = 1 - facet_probability_;
@@ -73,7 +88,9 @@ Evaluation<N> BaseBsdf<N, Parts>::above(const Coating<N>* coating, const V& wi, 
 template <int N, class Parts>
 Evaluation<N> BaseBsdf<N, Parts>::below(const Coating<N>* coating, const V& wi, const V& h) const {
   const V up = mirrored(wi);
-  const Left there = left(coating, up);
+  Shares facet{all3<N>(0), all3<N>(0), F{}};
+  if (features_.is_spec || !features_.refracts) facet = shares(smaller_of(dot(wo_, h), all<N>(1)));
+  const Left there = left(coating, up, facet);
   V spread = diffuse_below_ * there.diffuse + multiple_below_ * there.f1;
   if (features_.refracts) spread += lost_below_ * loss_.below(up.z);
   Evaluation<N> e{spread * up.z, (1 - facet_probability_) * below_probability_ * kInversePi * up.z};
@@ -82,8 +99,7 @@ Evaluation<N> BaseBsdf<N, Parts>::below(const Coating<N>* coating, const V& wi, 
     return e;
   }
   const F d = ggx_.distribution(h);
-  const Shares facet = shares(smaller_of(dot(wo_, h), all<N>(1)));
-  F single = d * ggx_.visibility(wo_, up) * up.z;
+  F single = d * visibility(up) * up.z;
   if (coating != nullptr) single *= transmittance(*coating, up);
   const auto is_opaque = is_zero(transmitted_);
   const F pdf =
@@ -106,9 +122,10 @@ void BaseBsdf<N, Parts>::refract(const V& wi, Evaluation<N>& e) const {
   const F spreading = eta_ * eta_ * -cos_i / (denominator * denominator);
   const F here = 2 / (wo_.z + ggx_.root(wo_)), there = 2 / (-wi.z + ggx_.root(wi));
   const F seen = ggx_.distribution(h) * cos_o * here * spreading;
-  // The masking term is the smaller G1 of the two directions. This makes a boundary between equal
-  // indices of refraction invisible.
-  const F unmasked = smaller_of(all<N>(1), F(there * -wi.z / (here * wo_.z)));
+  // The masking term is the smaller G1 of the two directions, which makes a boundary between equal
+  // indices of refraction invisible, or the specification's product of both.
+  const F unmasked =
+      features_.is_spec ? there * -wi.z : smaller_of(all<N>(1), F(there * -wi.z / (here * wo_.z)));
   const auto refracts =
       (square > 0) & (cos_o > 0) & (cos_i < 0) & (seen < 1e30F) & negated(is_zero(transmitted_));
   const F pdf = facet_probability_ * (1 - reflection_probability(facet)) * seen;

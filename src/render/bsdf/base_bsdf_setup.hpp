@@ -18,7 +18,7 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   const F least = all<N>(1e-6F), dielectric = 1 - p.metallic;
   if (coating != nullptr) transmittance_ = coating->transmittance(wo);
   V f0 = specular_.f0;
-  if (features_.transmits || features_.has_film) {
+  if (features_.transmits || features_.has_film || features_.is_spec) {
     metallic_ = p.metallic;
     dielectric_ = p.dielectric;
     metal_ = {p.base_color, all<N>(1)};
@@ -29,7 +29,9 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   }
   const Albedo<N> white_mean = albedo_.mean(), there = albedo_.at(wo);
   multiply_reflected_ = multiple_scattering(greatest_.f0, greatest_.f90, white_mean.f1);
-  const Left mean = mean_left(coating), here = left(coating, wo);
+  // The specification's factors of the diffuse part depend on the half vector.
+  Left mean{.f1 = F{}, .diffuse = all<N>(1)}, here = mean;
+  if (!features_.is_spec) mean = mean_left(coating), here = left(coating, wo);
   const F several = kInversePi / larger_of(mean.f1, least) * here.f1;
   multiple_ = multiple_scattering(f0, specular_.f90, white_mean.f1) * several;
   const F mean_diffuse = larger_of(mean.diffuse, least);
@@ -95,9 +97,10 @@ void BaseBsdf<N, Parts>::add_transmission(const Surface<N>& p, const V& f0, cons
   // light by the base color once.
   const V root{square_root<N>(p.base_color.x), square_root<N>(p.base_color.y),
                square_root<N>(p.base_color.z)};
-  transmitted_ = (dielectric * p.transmission) * root;
+  // The specification multiplies by the base color at each boundary.
+  transmitted_ = (dielectric * p.transmission) * (features_.is_spec ? p.base_color : root);
   multiple_below_ = lost_ = lost_below_ = all3<N>(0);
-  add_refraction_loss(p);
+  if (!features_.is_spec) add_refraction_loss(p);
 }
 
 template <int N, class Parts>

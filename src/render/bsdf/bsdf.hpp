@@ -32,6 +32,9 @@ struct AnisotropicParts {
 
 /// A BaseBsdf below a sheen layer, which is below a clear coat. Refracting surfaces have layers
 /// only on the outside. These layers also absorb part of the light that comes from inside.
+///
+/// With Features::is_spec, the layers are those of KHR_materials_clearcoat and KHR_materials_sheen:
+/// the coat's Fresnel term depends on wo only, which makes coated surfaces not reciprocal.
 template <int N, class Parts>
 class Bsdf {
  public:
@@ -67,7 +70,7 @@ class Bsdf {
   }
   /// The coating that the base's energy compensation takes into account.
   [[nodiscard]] const Coating<N>* base_coating() const {
-    return features_.layers == LayerSide::both ? coating_ : nullptr;
+    return features_.layers == LayerSide::both && !features_.is_spec ? coating_ : nullptr;
   }
   /// True if there are layers on the side of wo.
   [[nodiscard]] bool has_layers_above() const {
@@ -75,6 +78,7 @@ class Bsdf {
   }
   [[nodiscard]] Evaluation<N> evaluate(const V& wi, const V& h) const;
   void absorb(const V& wi, V& value) const;
+  void spec_absorb(const V& wi, V& value) const;
   void add_sheen(const V& wi, const V& h, Evaluation<N>& e) const;
   void add_coat(const V& wi, const V& h, Evaluation<N>& e) const;
 
@@ -101,7 +105,8 @@ Bsdf<N, Parts>::Bsdf(const FeaturesType& features, const Surface<N>& surface,
   if (!has_layers_above()) return;
   sheen_ = surface.sheen;
   coat_ = surface.coat;
-  coat_transmittance_ = coating->coat_transmittance(wo);
+  coat_transmittance_ =
+      features_.is_spec ? F(1 - coating->spec_coat_weight(wo)) : coating->coat_transmittance(wo);
   if (features_.layers == LayerSide::above) transmittance_ = coating->transmittance(wo);
   // Samples layers in proportion to their approximate albedos, with a minimum probability.
   const F greatest = coating->greatest_sheen(), least = all<N>(0.1F);
@@ -115,10 +120,17 @@ template <int N, class Parts>
 void Bsdf<N, Parts>::add_sheen(const V& wi, const V& h, Evaluation<N>& e) const {
   const auto has_sheen = (coating_->greatest_sheen() > 0) & (wi.z > 0);
   if (!any(has_sheen)) return;
-  const F through = smaller_of(coat_transmittance_, coating_->coat_transmittance(wi));
-  const V value = sheen_ * (coating_->sheen().reflectance(wo_, wi, h) * through * wi.z);
+  const SheenLobe<N>& sheen = coating_->sheen();
+  F reflected;
+  if (features_.is_spec) {
+    reflected = sheen.published_reflectance(wo_, wi, h) * coat_transmittance_;
+  } else {
+    const F through = smaller_of(coat_transmittance_, coating_->coat_transmittance(wi));
+    reflected = sheen.reflectance(wo_, wi, h) * through;
+  }
+  const V value = sheen_ * (reflected * wi.z);
   e.value = select3(has_sheen, V(e.value + value), e.value);
-  e.pdf = has_sheen ? e.pdf + sheen_probability_ * coating_->sheen().pdf(wi.z) : e.pdf;
+  e.pdf = has_sheen ? e.pdf + sheen_probability_ * sheen.pdf(wi.z) : e.pdf;
 }
 
 template <int N, class Parts>
@@ -129,17 +141,36 @@ void Bsdf<N, Parts>::add_coat(const V& wi, const V& h, Evaluation<N>& e) const {
   if (!any(has_coat)) return;
   const Ggx<N>& facets = coating_->coat();
   const F d = facets.distribution(frame.to_local(h));
-  const F reflected = Coating<N>::fresnel()(smaller_of(dot(wo_, h), all<N>(1))).x;
-  // Uses, for each direction, the smaller of its cosines with the shading normal and the coat's
-  // normal. This is reciprocal and never exceeds the coat's albedo.
-  const F cosines = wi.z * smaller_of(smaller_of(all<N>(1), F(i.z / wi.z)), F(o.z / wo_.z));
-  const F value = coat_ * reflected * d * facets.visibility(o.z, i.z) * cosines;
+  F value;
+  if (features_.is_spec) {
+    value = coating_->spec_coat_weight(wo_) * d * facets.spec_visibility(o, i) * wi.z;
+  } else {
+    const F reflected = Coating<N>::fresnel()(smaller_of(dot(wo_, h), all<N>(1))).x;
+    // Uses, for each direction, the smaller of its cosines with the shading normal and the coat's
+    // normal. This is reciprocal and never exceeds the coat's albedo.
+    const F cosines = wi.z * smaller_of(smaller_of(all<N>(1), F(i.z / wi.z)), F(o.z / wo_.z));
+    value = coat_ * reflected * d * facets.visibility(o.z, i.z) * cosines;
+  }
   e.value = select3(has_coat, V(e.value + all3<N>(value)), e.value);
   e.pdf = has_coat ? e.pdf + coat_probability_ * facets.reflected_pdf(o.z, d) : e.pdf;
 }
 
 template <int N, class Parts>
+void Bsdf<N, Parts>::spec_absorb(const V& wi, V& value) const {
+  const F of_sheen = coating_->sheen_transmittance(magnitude(wi.z));
+  if (has_layers_above()) {
+    value *= coat_transmittance_ * smaller_of(coating_->sheen_transmittance(wo_.z), of_sheen);
+  } else {
+    // The view direction of the layers is that of the light that leaves the medium.
+    const F through = (1 - coating_->spec_coat_weight(wi)) * of_sheen;
+    value *= wi.z < 0 ? through : all<N>(1);
+  }
+}
+
+template <int N, class Parts>
 void Bsdf<N, Parts>::absorb(const V& wi, V& value) const {
+  if (features_.layers == LayerSide::none) return;
+  if (features_.is_spec) return spec_absorb(wi, value);
   if (features_.layers == LayerSide::above) {
     const F through = smaller_of(transmittance_, coating_->transmittance(wi));
     value *= wi.z > 0 ? through : transmittance_;

@@ -59,6 +59,18 @@ class Coating {
     return coat_transmittance(w) * sheen_transmittance(w.z);
   }
 
+  /// The weight of the coat's reflection according to fresnel_coat of KHR_materials_clearcoat. The
+  /// layers below have the remaining weight.
+  [[nodiscard]] F spec_coat_weight(const V& w) const {
+    return coat_weight_ * fresnel()(magnitude(coat_frame_.to_local(w).z)).x;
+  }
+  /// The transmittance of the sheen for z = |cos(theta)| (sheen_albedo_scaling of
+  /// KHR_materials_sheen).
+  [[nodiscard]] F sheen_transmittance(const F& z) const {
+    const F left = 1 - greatest_sheen_ * sheen_.albedo(z);
+    return greatest_sheen_ > 0 ? left : all<N>(1);
+  }
+
   /// The energy deficit for light to or from z = cos(theta). It is the microfacets' albedo if all
   /// directions had the transmittance of z, minus the actual albedo.
   [[nodiscard]] Albedo<N> deficit(const F& z) const {
@@ -85,10 +97,6 @@ class Coating {
     const F left =
         1 - coat_weight_ * (schlick.f0.x * (albedo.f1 - albedo.schlick) + albedo.schlick);
     return coat_weight_ == 0 ? all<N>(1) : left;
-  }
-  [[nodiscard]] F sheen_transmittance(const F& z) const {
-    const F left = 1 - greatest_sheen_ * sheen_.albedo(z);
-    return greatest_sheen_ > 0 ? left : all<N>(1);
   }
   [[nodiscard]] F mixed(const std::int16_t* table, const Cell<N>& row, int column) const {
     F upper{}, lower{};

@@ -20,9 +20,13 @@ struct Features {
   bool transmits = false;  ///< light may cross the surface
   bool refracts = false;   ///< light that crosses the surface is refracted
   LayerSide layers = LayerSide::none;
+  /// The formulas of the glTF specification (BsdfModel::spec). All surfaces of a picture have the
+  /// same value.
+  bool is_spec = false;
 
   static constexpr int kCount = 64;
-  /// A unique number below kCount for each combination of features; 0 if there are none.
+  /// A unique number below kCount for each combination of the features above except is_spec; 0 if
+  /// there are none.
   [[nodiscard]] int index() const {
     return int{is_anisotropic} + 2 * int{has_film} + 4 * int{transmits} + 8 * int{refracts} +
            16 * static_cast<int>(layers);
@@ -32,7 +36,7 @@ struct Features {
 /// No features, as a compile-time constant.
 struct PlainFeatures {
   static constexpr bool is_anisotropic = false, has_film = false, transmits = false,
-                        refracts = false;
+                        refracts = false, is_spec = false;
   static constexpr LayerSide layers = LayerSide::none;
 };
 

@@ -57,6 +57,11 @@ class Ggx {
     return 0.5F / (z_i * root(z_o) + z_o * root(z_i));
   }
 
+  /// The same with the masking-shadowing term of glTF 2.0, section B.3.2: the product of both G1.
+  [[nodiscard]] F spec_visibility(const V& wo, const V& wi) const {
+    return 1 / ((wo.z + root(wo)) * (wi.z + root(wi)));
+  }
+
   /// The pdf of wi, G1 D / (4 z_o), if its half vector is sampled by visible_normal(wo).
   /// `distribution` is D.
   [[nodiscard]] F reflected_pdf(const F& z_o, const F& distribution) const {

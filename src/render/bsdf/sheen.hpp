@@ -43,9 +43,7 @@ struct SheenTerms {
   }
 };
 
-/// Sheen without its color. The albedo of the published model reaches 4 for smooth fibers at
-/// grazing angles. Where it exceeds 1, the model is divided by its albedo for wo or wi, whichever
-/// is larger.
+/// Sheen without its color.
 template <int N>
 class SheenLobe {
  public:
@@ -58,8 +56,17 @@ class SheenLobe {
                  (kSheenRows - 1),
              kSheenRows) {}
 
-  /// D V without the color, for directions wo and wi above the surface and their half vector h.
+  /// D V without the color, for directions wo and wi above the surface and their half vector h. The
+  /// albedo of the published model reaches 4 for smooth fibers at grazing angles. Where it exceeds
+  /// 1, the model is divided by its albedo for wo or wi, whichever is larger.
   [[nodiscard]] F reflectance(const V& wo, const V& wi, const V& h) const {
+    const F most =
+        larger_of(look_up(kTables.raw_sheen_albedo, wo.z), look_up(kTables.raw_sheen_albedo, wi.z));
+    return published_reflectance(wo, wi, h) / larger_of(most, all<N>(1));
+  }
+
+  /// D V of the published model.
+  [[nodiscard]] F published_reflectance(const V& wo, const V& wi, const V& h) const {
     constexpr int n = kDoubleLanes<N>;
     alignas(64) float roughness[N], z_o[N], z_i[N], x[N], y[N], values[N];
     store<N>(roughness, roughness_);
@@ -75,9 +82,7 @@ class SheenLobe {
           terms.reflectance(widened<n>(z_o + i), widened<n>(z_i + i), h_x * h_x + h_y * h_y),
           values + i);
     }
-    const F most =
-        larger_of(look_up(kTables.raw_sheen_albedo, wo.z), look_up(kTables.raw_sheen_albedo, wi.z));
-    return load<N>(values) / larger_of(most, all<N>(1));
+    return load<N>(values);
   }
 
   /// The directional albedo for z = cos(theta), at most 1.

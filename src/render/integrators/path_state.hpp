@@ -70,6 +70,7 @@ struct alignas(64) ShadowColumns {
 struct WaveStep {
   std::uint32_t depth = 1;  ///< number of the current path segment, counted from 1
   float sample_width = 1;   ///< distance between samples, in pixels
+  bool is_spec = false;     ///< true for BsdfModel::spec
 
   /// The number of the pair of random numbers `which` at this bounce.
   [[nodiscard]] std::uint32_t pair(std::uint32_t which) const {

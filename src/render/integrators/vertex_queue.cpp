@@ -34,10 +34,12 @@ void copy(LaneFloats (&to)[n], const LaneFloats (&from)[n]) {
 }  // namespace
 
 ScatterSetup scatter_setup(const WaveStep& step, const bsdf::Features& features) {
-  return {.features = features,
-          .direction_pair = step.pair(sampling::kDirectionPair),
-          .lobe_pair = step.pair(sampling::kLobePair),
-          .most_survival = step.most_survival()};
+  ScatterSetup setup{.features = features,
+                     .direction_pair = step.pair(sampling::kDirectionPair),
+                     .lobe_pair = step.pair(sampling::kLobePair),
+                     .most_survival = step.most_survival()};
+  setup.features.is_spec = step.is_spec;
+  return setup;
 }
 
 void VertexQueue::begin(const Lighting& lighting) {

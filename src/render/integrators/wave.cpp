@@ -90,6 +90,7 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
                  std::span<const SampleId> ids, std::span<Sample> samples) {
   begin(world, rays, ids);
   options_ = options;
+  step_.is_spec = options.bsdf == BsdfModel::spec;
   ground_ = find_ground();
   for (; count_ > 0; ++step_.depth) {
     intersect(rays);

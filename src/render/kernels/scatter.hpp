@@ -115,7 +115,7 @@ void scatter_all(const typename Parts::FeaturesType& features, const ScatterSetu
 
 template <int N>
 void scatter(const ScatterSetup& setup, ScatterLanes& lanes) {
-  if (setup.features.index() == 0)
+  if (setup.features.index() == 0 && !setup.features.is_spec)
     scatter_all<N, bsdf::PlainParts<N>>({}, setup, lanes);
   else if (setup.features.is_anisotropic)
     scatter_all<N, bsdf::AnisotropicParts<N>>(setup.features, setup, lanes);

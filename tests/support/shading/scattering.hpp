@@ -66,7 +66,8 @@ class Scattering {
                      const Vec3& wo) {
     if (features.is_anisotropic)
       return Bsdf<1, AnisotropicParts<1>>(features, surface, coating, wo);
-    if (features.index() == 0) return Bsdf<1, PlainParts<1>>({}, surface, nullptr, wo);
+    if (features.index() == 0 && !features.is_spec)
+      return Bsdf<1, PlainParts<1>>({}, surface, nullptr, wo);
     return Bsdf<1, IsotropicParts<1>>(features, surface, coating, wo);
   }
 

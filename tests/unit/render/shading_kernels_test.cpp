@@ -214,7 +214,8 @@ TEST_P(ShadingKernelsTest, ScatteringHasTheBitsOfOneLane) {
   int lit = 0, alive = 0, below = 0;
   for (int round = 0; round < 4 * kRounds; ++round) {
     ScatterLanes lanes{};
-    const WaveStep step{.depth = 1 + static_cast<std::uint32_t>(round % 6)};
+    const WaveStep step{.depth = 1 + static_cast<std::uint32_t>(round % 6),
+                        .is_spec = round % 4 == 3};
     const bsdf::Features features = any_features(random);
     for (int i = 0; i < kShadingLanes; ++i) {
       const Vec3 n = random.direction(), outwards = unit<1>(n + 0.3F * random.vector());

@@ -12,7 +12,7 @@
 namespace microtrace {
 namespace {
 
-constexpr double kEdge = 0.96;
+constexpr double kEdge = 0.9;
 
 /// The extent of projected points in a picture whose edges are at -1 and 1. The projection uses the
 /// standard library's trigonometry.
@@ -130,6 +130,42 @@ TEST(Framing, MarginsOnTheOtherAxisAreEqual) {
   const Extent extent = seen(widened(wide), camera, size);
   expect_tight(extent);
   EXPECT_NEAR(camera.pose.position.y, 1.5, 1e-12);
+}
+
+/// The difference of the two margins along the axis that is not filled, relative to the picture.
+double imbalance(const Extent& e) {
+  return std::max(std::abs(e.left + e.right), std::abs(e.bottom + e.top)) / 2;
+}
+
+// The far edge of a floor is smaller in the picture than its near edge.
+TEST(Framing, FloorsAndWallsAreCentered) {
+  const ImageSize size{640, 480};
+  for (const std::vector<Vec3>& corners :
+       std::vector<std::vector<Vec3>>{{{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}},
+                                      {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+                                      {{0, 0, -4}, {1, 0, -4}, {1, 0, 4}, {0, 0, 4}},
+                                      {{-1, 0, -1}, {1, 0, -1}, {1, 9, 1}, {-1, 9, 1}}}) {
+    const Extent extent = seen(widened(corners), frame(cloud(corners), View{}, size), size);
+    expect_tight(extent);
+    EXPECT_LT(imbalance(extent), 0.005);
+  }
+}
+
+TEST(Framing, RandomPointsAreCentered) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  double sum = 0;
+  constexpr int kCount = 1000;
+  for (int i = 0; i < kCount; ++i) {
+    const Vec3 spread(normal(random), normal(random), normal(random));
+    std::vector<Vec3> points(8);
+    for (Vec3& p : points) p = spread * Vec3(normal(random), normal(random), normal(random));
+    const ImageSize size = kSizes[i % std::size(kSizes)];
+    const double value = imbalance(seen(widened(points), frame(cloud(points), View{}, size), size));
+    EXPECT_LT(value, 0.07) << i;
+    sum += value;
+  }
+  EXPECT_LT(sum / kCount, 0.002);
 }
 
 TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
