@@ -140,7 +140,8 @@ void FeatureTracer::step(std::size_t i, Hit hit) {
                           .n = shading_normal(point, d)};
       Path here = path;
       here.share *= coverage;
-      here.tint *= beer_lambert(path.absorption, point.at.distance);
+      if (path.medium != nullptr)
+        here.tint *= beer_lambert(path.medium->extinction, point.at.distance);
       if (coverage == 1) return scatter(vertex, here);
       end(vertex, here);
       path.share *= 1 - coverage;
@@ -192,7 +193,7 @@ void FeatureTracer::scatter(const Vertex& vertex, const Path& path) {
   if (ways.transmitted > 0) {
     next.share = path.share * ways.transmitted;
     next.tint = path.tint * (p.eta ? glm::sqrt(p.base_color) : p.base_color);
-    if (p.eta) next.absorption = world_.shading->absorption(vertex.point);
+    next.medium = Shading::medium_beyond(vertex.point, path.medium);
     add_ray(vertex, next, ways.through);
   }
   next = path;

@@ -42,11 +42,11 @@ class FeatureTracer {
 
   /// A part of a camera ray's light that comes along one way.
   struct Path {
-    std::size_t slot = 0;  ///< index of the camera ray
-    float share = 1;       ///< of the camera ray, by which features are weighed
-    Vec3 tint{1};          ///< the color of the surfaces and media on the way
-    Vec3 absorption{0};    ///< of the current medium, in powers of two per length
-    Vec3 n{0};             ///< normal of the last surface
+    std::size_t slot = 0;            ///< index of the camera ray
+    float share = 1;                 ///< of the camera ray, by which features are weighed
+    Vec3 tint{1};                    ///< the color of the surfaces and media on the way
+    const Medium* medium = nullptr;  ///< the current medium; null for a vacuum
+    Vec3 n{0};                       ///< normal of the last surface
     Footprint footprint{};
     bool may_split = true;
   };

@@ -24,7 +24,12 @@ std::size_t OutgoingRays::spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays,
     paths.left[count] = spawn.hit.id;
     paths.states[count++] = paths_[i];
   }
-  shadow_count_ = path_count_ = spawn_count_ = 0;
+  for (std::size_t i = 0; i < scattered_count_; ++i) {
+    paths.rays[count] = scattered_rays_[i];
+    paths.left[count] = kNoPrimitive;
+    paths.states[count++] = scattered_[i];
+  }
+  shadow_count_ = path_count_ = spawn_count_ = scattered_count_ = 0;
   return count;
 }
 

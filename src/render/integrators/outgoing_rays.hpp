@@ -40,6 +40,12 @@ class OutgoingRays {
     return paths_[path_count_++];
   }
 
+  /// Adds the next ray of a path that was scattered in a medium.
+  void add_scattered(const Ray& ray, const PathState& path) {
+    scattered_rays_[scattered_count_] = ray;
+    scattered_[scattered_count_++] = path;
+  }
+
   /// The next rays of paths, and the primitives that they leave.
   struct Paths {
     std::span<Ray> rays;
@@ -57,9 +63,10 @@ class OutgoingRays {
     return spawn_count_++;
   }
 
-  std::size_t shadow_count_ = 0, path_count_ = 0, spawn_count_ = 0;
+  std::size_t shadow_count_ = 0, path_count_ = 0, spawn_count_ = 0, scattered_count_ = 0;
   std::array<ShadowRays::Shadow, kRandomBatch> shadows_;
-  std::array<PathState, kRandomBatch> paths_;
+  std::array<PathState, kRandomBatch> paths_, scattered_;
+  std::array<Ray, kRandomBatch> scattered_rays_;
   std::array<std::size_t, kRandomBatch> shadow_spawns_, path_spawns_;
   std::array<Bvh::Spawn, 2 * kRandomBatch> spawns_;
   std::array<std::optional<Vec3>, 2 * kRandomBatch> origins_;

@@ -1,6 +1,7 @@
 #pragma once
 #include "render/integrators/power_heuristic.hpp"
 #include "render/lights/lighting.hpp"
+#include "render/media/medium.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 
@@ -17,11 +18,14 @@ struct PathState {
   sampling::Sobol sobol{};
   std::size_t slot = 0;  ///< index in the batch
   Vec3 throughput{1};
-  float pdf = 0;              ///< pdf of the last direction; 0 for camera rays
-  LightSampleContext from{};  ///< the previous vertex
-  Vec3 absorption{0};         ///< absorption of the current medium, in powers of two per length
-  int channel = 3;            ///< color channel in a dispersive medium, 0 to 2; 3 for all channels
-  float begin = 0, spread = 0;  ///< footprint width at the origin, and growth with distance
+  float pdf = 0;                   ///< pdf of the last direction; 0 for camera rays
+  LightSampleContext from{};       ///< the previous vertex
+  const Medium* medium = nullptr;  ///< the current medium; null for a vacuum
+  int channel = 3;  ///< color channel in a dispersive medium, 0 to 2; 3 for all channels
+  float begin = 0, spread = 0;    ///< footprint width at the origin, and growth with distance
+  std::uint32_t scatterings = 0;  ///< number of scattering events in media
+  bool is_scattered =
+      false;  ///< true if the previous vertex is in a medium, where no light is sampled
 };
 
 /// Parameters common to all paths of a wavefront at one bounce.
@@ -33,6 +37,8 @@ struct WaveStep {
   [[nodiscard]] std::uint32_t pair(std::uint32_t which) const {
     return sampling::kFirstVertexPair + (depth - 1) * sampling::kVertexPairs + which;
   }
+  /// The number of the pair of random numbers for a flight through a scattering medium.
+  [[nodiscard]] std::uint32_t flight_pair() const { return sampling::kFirstFlightPair + depth - 1; }
   /// Maximum survival probability of Russian roulette; 1 disables it.
   [[nodiscard]] float most_survival() const { return depth >= kFirstRoulette ? 0.95F : 1; }
   /// Growth of the path's footprint after scattering with this pdf: a quarter of the mean sample

@@ -3,8 +3,13 @@
 #include "render/bsdf/put_surface.hpp"
 #include "render/kernels/dispatch.hpp"
 #include "render/kernels/lane_access.hpp"
+#include "render/shading/beer_lambert.hpp"
 
+#include <cmath>
 #include <cstring>
+#include <limits>
+
+#include <glm/geometric.hpp>
 
 namespace microtrace {
 namespace {
@@ -67,7 +72,7 @@ void VertexQueue::add(const Vertex& vertex, const bsdf::Parameters& parameters,
   pending.path = &path;
   pending.width = point.width;
   pending.channel = vertex.channel;
-  pending.absorption = vertex.absorption;
+  pending.medium = vertex.medium;
   put(light_choices_.p, lane, point.at.p);
   put_point(points_, lane, vertex.ray, point.at);
   add_normal_maps(lane, point);
@@ -125,12 +130,25 @@ void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Outgoin
   for (int lane = 0; lane < count_; ++lane) {
     const auto i = static_cast<std::size_t>(lane);
     if (const Vec3 color = got(scatter_.shadow, lane); color != Vec3(0)) {
-      outgoing.add_shadow(*pending_[i].ray, pending_[i].hit, lights_[i], color,
-                          pending_[i].path->slot);
+      outgoing.add_shadow(*pending_[i].ray, pending_[i].hit, lights_[i],
+                          color * light_transmittance(lane), pending_[i].path->slot);
     }
     if (scatter_.pdf[lane] > 0) continue_path(lane, step, outgoing);
   }
   count_ = 0;
+}
+
+Vec3 VertexQueue::light_transmittance(int lane) const {
+  const auto i = static_cast<std::size_t>(lane);
+  const LightSample& light = lights_[i];
+  const bool is_below = glm::dot(got(scatter_.outwards, lane), light.wi) < 0;
+  const Medium* medium = is_below ? pending_[i].medium : pending_[i].path->medium;
+  // Lights that are infinitely far away are visible only in media without an end. As for paths,
+  // such a medium is treated as a vacuum if it only absorbs.
+  if (medium == nullptr || (light.is_far && !medium->scatters())) return Vec3(1);
+  const float distance = light.is_far ? std::numeric_limits<float>::infinity()
+                                      : std::sqrt(glm::dot(light.to_light, light.to_light));
+  return beer_lambert(medium->extinction, distance);
 }
 
 void VertexQueue::continue_path(int lane, const WaveStep& step, OutgoingRays& outgoing) const {
@@ -142,11 +160,12 @@ void VertexQueue::continue_path(int lane, const WaveStep& step, OutgoingRays& ou
   next.pdf = pdf;
   next.from.p = got(light_choices_.p, lane);
   next.from.n = got(scatter_.frame_n, lane);
+  next.is_scattered = false;
   next.begin = vertex.width;
   next.spread += step.spread(pdf);
   if (!features_.transmits || scatter_.is_below[lane] == 0) return;
   next.channel = vertex.channel;
-  next.absorption = vertex.absorption;
+  next.medium = vertex.medium;
 }
 
 VertexQueues::VertexQueues() : kernels_(kShadingKernels.best()) {}

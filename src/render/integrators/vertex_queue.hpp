@@ -24,8 +24,8 @@ struct Vertex {
   const Hit& hit;
   const ShadingPoint& point;
   const PathState& path;
-  int channel;      ///< color channel for refraction by a dispersive surface; 3 for all channels
-  Vec3 absorption;  ///< absorption below the surface
+  int channel;  ///< color channel for refraction by a dispersive surface; 3 for all channels
+  const Medium* medium;  ///< the medium below the surface
 };
 
 /// The kernel parameters that all paths of a bounce share.
@@ -56,12 +56,14 @@ class VertexQueue {
     const PathState* path;
     float width;
     int channel;
-    Vec3 absorption;  ///< absorption below the surface
+    const Medium* medium;  ///< the medium below the surface
   };
 
   void add_normal_maps(int lane, const ShadingPoint& point);
   void find_frames();
   void sample_lights(const WaveStep& step, const Lighting& lighting);
+  /// The fraction of the light sample's light that the medium around the vertex lets through.
+  [[nodiscard]] Vec3 light_transmittance(int lane) const;
   void continue_path(int lane, const WaveStep& step, OutgoingRays& outgoing) const;
 
   bsdf::Features features_;

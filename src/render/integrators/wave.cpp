@@ -2,7 +2,7 @@
 
 #include "render/bsdf/frame.hpp"
 #include "render/kernels/dispatch.hpp"
-#include "render/shading/beer_lambert.hpp"
+#include "render/media/medium_event.hpp"
 #include "render/shading/footprint.hpp"
 
 #include <algorithm>
@@ -90,7 +90,8 @@ void Wave::escape(const Ray& ray, const PathState& path) {
   const Vec3 wi = unit<1>(ray.d);
   if (path.pdf > 0) {
     const EnvironmentLight::Lookup light = lighting_->environment(path.from, wi);
-    colors_[path.slot] += path.throughput * light.radiance * power_heuristic(path.pdf, light.pdf);
+    const float other = path.is_scattered ? 0 : light.pdf;
+    colors_[path.slot] += path.throughput * light.radiance * power_heuristic(path.pdf, other);
   } else if (lighting_->is_seen()) {  // otherwise the background is composited later
     colors_[path.slot] += path.throughput * lighting_->environment(wi);
     alphas_[path.slot] = 1;
@@ -165,6 +166,13 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
   return {.hit = hit, .point = point};
 }
 
+bool Wave::cross_medium(const Ray& ray, const std::optional<Hit>& hit, float distance,
+                        PathState& path) {
+  const MediumEvent event = microtrace::cross_medium(world_->bvh, step_, ray, hit, distance, path);
+  if (event.scattered) outgoing_.add_scattered(*event.scattered, path);
+  return event.arrives;
+}
+
 void Wave::step(std::size_t i, ShadingPoint& point) {
   const Ray& ray = rays_[i];
   PathState& path = paths_[i];
@@ -172,6 +180,7 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   const bool from_camera = path.pdf == 0;
   std::uint32_t layer = 0;
   for (; hit && !stops(path, point, layer); ++layer) hit = next(i, *hit, point);
+  if (path.medium != nullptr && !cross_medium(ray, hit, point.at.distance, path)) return;
   if (!hit) return escape(ray, path);
   if (!from_camera && options_.backfaces == Backfaces::pass && Shading::lets_light_in(point) &&
       lighting_->may_surround()) {
@@ -179,31 +188,29 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
     if (behind.is_open) return escape(ray, path);
     if (behind.hit) hit = behind.hit, point = behind.point;
   }
-  if (path.absorption != Vec3(0))
-    path.throughput *= beer_lambert(path.absorption, point.at.distance);
   if (from_camera) alphas_[path.slot] = 1;
   if (const Vec3 emission = shading_->emission(point); emission != Vec3(0)) {
     const Vec3 d = unit<1>(ray.d);
     const float cosine = std::abs(glm::dot(d, point.at.n));
-    const float other = lighting_->emitter_pdf(hit->id, path.from, point.at.distance, cosine);
+    const float other = path.is_scattered
+                            ? 0
+                            : lighting_->emitter_pdf(hit->id, path.from, point.at.distance, cosine);
     const float weight = from_camera ? 1 : power_heuristic(path.pdf, other);
     colors_[path.slot] += path.throughput * emission * weight;
   }
-  if (step_.depth >= options_.max_depth || point.look->material->unlit) return;
+  if (step_.depth - path.scatterings >= options_.max_depth || point.look->material->unlit) return;
   const Material& material = *point.look->material;
-  const Vertex vertex{
-      .ray = ray,
-      .hit = *hit,
-      .point = point,
-      .path = path,
-      .channel = channel_of(material, path),
-      .absorption = encloses_medium(material) ? shading_->absorption(point) : path.absorption};
+  const Vertex vertex{.ray = ray,
+                      .hit = *hit,
+                      .point = point,
+                      .path = path,
+                      .channel = channel_of(material, path),
+                      .medium = Shading::medium_beyond(point, path.medium)};
   vertices_.add(step_, vertex, outgoing_);
 }
 
 int Wave::channel_of(const Material& material, const PathState& path) const {
-  if (path.channel < 3 || material.dispersion == 0 || !encloses_medium(material))
-    return path.channel;
+  if (path.channel < 3 || material.dispersion == 0 || !refracts(material)) return path.channel;
   return std::min(static_cast<int>(3 * path.sobol.pair(step_.pair(sampling::kLightChoicePair)).y),
                   2);
 }

@@ -55,6 +55,9 @@ class Wave {
   /// empty if no light arrives.
   [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
                                    std::uint32_t layer);
+  /// Moves a path through its medium along its ray. Returns true if the path reaches the hit. If it
+  /// is scattered before, adds its next ray.
+  bool cross_medium(const Ray& ray, const std::optional<Hit>& hit, float distance, PathState& path);
   /// Advances path i by one bounce. `point` is the shading point of its ray's hit, if any.
   void step(std::size_t i, ShadingPoint& point);
   /// Advances all paths by one bounce.

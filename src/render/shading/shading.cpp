@@ -148,7 +148,7 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) {
   if (m.anisotropy) add_anisotropy(point, p);
   if (const auto& t = m.transmission) {
     p.transmission = t->factor * look[MaterialTexture::transmission].at(point).x;
-    if (encloses_medium(m)) {
+    if (refracts(m)) {
       float ior = m.ior == 0 ? 1e6F : m.ior;
       if (channel < 3) ior = dispersed(ior, m.dispersion, channel);
       p.eta = point.at.front ? ior : 1 / ior;
@@ -168,12 +168,6 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) {
         d->color * Vec3(look[MaterialTexture::diffuse_transmission_color].at(point));
   }
   return p;
-}
-
-Vec3 Shading::absorption(const ShadingPoint& point) const {
-  const Material& m = *point.look->material;
-  if (!point.at.front || !encloses_medium(m)) return Vec3(0);
-  return point.look->absorption;
 }
 
 }  // namespace microtrace

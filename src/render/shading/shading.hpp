@@ -3,6 +3,7 @@
 
 #include "render/bsdf/parameters.hpp"
 #include "render/kernels/kernel.hpp"
+#include "render/media/medium.hpp"
 #include "render/shading/surface_point.hpp"
 #include "render/textures/texture_map.hpp"
 #include "scene/material_textures.hpp"
@@ -61,7 +62,7 @@ struct TexturedMaterial {
   /// The slot whose texel address is reused by every slot with shares_address. Often these are all
   /// slots.
   TextureSlot layout{};
-  Vec3 absorption{0};  ///< absorption of the enclosed medium, in powers of two per length
+  Medium medium{};  ///< the enclosed medium, if encloses_medium()
   /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
   bool has_constant_emission = false;
   bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
@@ -86,11 +87,6 @@ struct ShadingPoint {
   /// The texel address that slots share, if it has been computed.
   std::optional<TextureMap::TexelAddress> texel_address{};
 };
-
-/// True if the surface encloses a medium, so that light is refracted (KHR_materials_volume).
-[[nodiscard]] inline bool encloses_medium(const Material& m) {
-  return m.transmission && m.volume && m.volume->thickness > 0;
-}
 
 /// True if the back of the material is visible, from behind or from inside its medium.
 [[nodiscard]] inline bool has_back(const Material& m) {
@@ -167,9 +163,12 @@ class Shading {
     return varying.emplace(parameters(point, channel), layers(point));
   }
 
-  /// The absorption of the medium below the surface, in powers of two per length; 0 if there is
-  /// none.
-  [[nodiscard]] Vec3 absorption(const ShadingPoint& point) const;
+  /// The medium on the other side of the surface, as seen from a ray in the medium `here`. Null
+  /// stands for a vacuum.
+  [[nodiscard]] static const Medium* medium_beyond(const ShadingPoint& point, const Medium* here) {
+    if (!encloses_medium(*point.look->material)) return here;
+    return point.at.front ? &point.look->medium : nullptr;
+  }
 
  private:
   struct Entry {
