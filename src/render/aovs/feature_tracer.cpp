@@ -131,17 +131,20 @@ void FeatureTracer::step(std::size_t i, Hit hit) {
     point.width = path.footprint.at(point.at.distance);
     Shading::find_texel_address(point);
     if (const float coverage = world_.shading->coverage(point, depth_ == 1); coverage > 0) {
-      const BsdfInput& input = world_.shading->bsdf_input(point, 3, varying_);
+      const Beyond beyond =
+          media_.cross(Shading::enclosed_medium(point), point.at.front, path.media);
+      const BsdfInput& input = world_.shading->bsdf_input(point, 3, beyond.outside, varying_);
       const Vertex vertex{.ray = ray,
                           .hit = hit,
                           .point = point,
                           .parameters = input.parameters,
                           .layers = input.layers,
-                          .n = shading_normal(point, d)};
+                          .n = shading_normal(point, d),
+                          .beyond = beyond.media};
       Path here = path;
       here.share *= coverage;
-      if (path.medium != nullptr)
-        here.tint *= beer_lambert(path.medium->extinction, point.at.distance);
+      if (path.media != nullptr)
+        here.tint *= beer_lambert(path.media->medium->extinction, point.at.distance);
       if (coverage == 1) return scatter(vertex, here);
       end(vertex, here);
       path.share *= 1 - coverage;
@@ -193,7 +196,7 @@ void FeatureTracer::scatter(const Vertex& vertex, const Path& path) {
   if (ways.transmitted > 0) {
     next.share = path.share * ways.transmitted;
     next.tint = path.tint * (p.eta ? glm::sqrt(p.base_color) : p.base_color);
-    next.medium = Shading::medium_beyond(vertex.point, path.medium);
+    next.media = vertex.beyond;
     add_ray(vertex, next, ways.through);
   }
   next = path;

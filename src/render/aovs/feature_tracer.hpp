@@ -2,6 +2,7 @@
 /// Computes what denoisers need to know of the surfaces that a picture shows.
 
 #include "render/bsdf/parameters.hpp"
+#include "render/media/nested_media.hpp"
 #include "render/shading/footprint.hpp"
 #include "render/shading/shading.hpp"
 
@@ -42,11 +43,11 @@ class FeatureTracer {
 
   /// A part of a camera ray's light that comes along one way.
   struct Path {
-    std::size_t slot = 0;            ///< index of the camera ray
-    float share = 1;                 ///< of the camera ray, by which features are weighed
-    Vec3 tint{1};                    ///< the color of the surfaces and media on the way
-    const Medium* medium = nullptr;  ///< the current medium; null for a vacuum
-    Vec3 n{0};                       ///< normal of the last surface
+    std::size_t slot = 0;                ///< index of the camera ray
+    float share = 1;                     ///< of the camera ray, by which features are weighed
+    Vec3 tint{1};                        ///< the color of the surfaces and media on the way
+    const NestedMedia* media = nullptr;  ///< the current media
+    Vec3 n{0};                           ///< normal of the last surface
     Footprint footprint{};
     bool may_split = true;
   };
@@ -57,7 +58,8 @@ class FeatureTracer {
     const ShadingPoint& point;
     const bsdf::Parameters& parameters;
     const bsdf::Layers& layers;
-    Vec3 n;  ///< shading normal on the ray's side
+    Vec3 n;                     ///< shading normal on the ray's side
+    const NestedMedia* beyond;  ///< the media on the other side
   };
 
   /// Follows path i, whose ray hits something, to its next surface that is not transparent.
@@ -79,6 +81,7 @@ class FeatureTracer {
   std::array<Path, kMostPaths> paths_, next_paths_;
   std::array<Bvh::Spawn, kMostPaths> spawns_;
   std::optional<BsdfInput> varying_;
+  NestedMediaTable media_;
 };
 
 }  // namespace microtrace

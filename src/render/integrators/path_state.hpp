@@ -1,7 +1,7 @@
 #pragma once
 #include "render/integrators/power_heuristic.hpp"
 #include "render/lights/lighting.hpp"
-#include "render/media/medium.hpp"
+#include "render/media/nested_media.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 
@@ -18,9 +18,9 @@ struct PathState {
   sampling::Sobol sobol{};
   std::size_t slot = 0;  ///< index in the batch
   Vec3 throughput{1};
-  float pdf = 0;                   ///< pdf of the last direction; 0 for camera rays
-  LightSampleContext from{};       ///< the previous vertex
-  const Medium* medium = nullptr;  ///< the current medium; null for a vacuum
+  float pdf = 0;                       ///< pdf of the last direction; 0 for camera rays
+  LightSampleContext from{};           ///< the previous vertex
+  const NestedMedia* media = nullptr;  ///< the current media
   int channel = 3;  ///< color channel in a dispersive medium, 0 to 2; 3 for all channels
   float begin = 0, spread = 0;    ///< footprint width at the origin, and growth with distance
   std::uint32_t scatterings = 0;  ///< number of scattering events in media

@@ -72,7 +72,7 @@ void VertexQueue::add(const Vertex& vertex, const bsdf::Parameters& parameters,
   pending.path = &path;
   pending.width = point.width;
   pending.channel = vertex.channel;
-  pending.medium = vertex.medium;
+  pending.media = vertex.beyond.media;
   put(light_choices_.p, lane, point.at.p);
   put_point(points_, lane, vertex.ray, point.at);
   add_normal_maps(lane, point);
@@ -142,13 +142,15 @@ Vec3 VertexQueue::light_transmittance(int lane) const {
   const auto i = static_cast<std::size_t>(lane);
   const LightSample& light = lights_[i];
   const bool is_below = glm::dot(got(scatter_.outwards, lane), light.wi) < 0;
-  const Medium* medium = is_below ? pending_[i].medium : pending_[i].path->medium;
+  const NestedMedia* media = is_below ? pending_[i].media : pending_[i].path->media;
+  if (media == nullptr) return Vec3(1);
+  const Medium& medium = *media->medium;
   // Lights that are infinitely far away are visible only in media without an end. As for paths,
   // such a medium is treated as a vacuum if it only absorbs.
-  if (medium == nullptr || (light.is_far && !medium->scatters())) return Vec3(1);
+  if (light.is_far && !medium.scatters()) return Vec3(1);
   const float distance = light.is_far ? std::numeric_limits<float>::infinity()
                                       : std::sqrt(glm::dot(light.to_light, light.to_light));
-  return beer_lambert(medium->extinction, distance);
+  return beer_lambert(medium.extinction, distance);
 }
 
 void VertexQueue::continue_path(int lane, const WaveStep& step, OutgoingRays& outgoing) const {
@@ -165,7 +167,7 @@ void VertexQueue::continue_path(int lane, const WaveStep& step, OutgoingRays& ou
   next.spread += step.spread(pdf);
   if (!features_.transmits || scatter_.is_below[lane] == 0) return;
   next.channel = vertex.channel;
-  next.medium = vertex.medium;
+  next.media = vertex.media;
 }
 
 VertexQueues::VertexQueues() : kernels_(kShadingKernels.best()) {}
@@ -179,7 +181,8 @@ void VertexQueues::begin(const Shading& shading, const Lighting& lighting) {
 }
 
 void VertexQueues::add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing) {
-  const BsdfInput& input = shading_->bsdf_input(vertex.point, vertex.channel, varying_);
+  const BsdfInput& input =
+      shading_->bsdf_input(vertex.point, vertex.channel, vertex.beyond.outside, varying_);
   std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(input.features.index())];
   if (!queue) {
     queue = std::make_unique<VertexQueue>(input.features, kernels_);

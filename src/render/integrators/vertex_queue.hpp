@@ -24,8 +24,8 @@ struct Vertex {
   const Hit& hit;
   const ShadingPoint& point;
   const PathState& path;
-  int channel;  ///< color channel for refraction by a dispersive surface; 3 for all channels
-  const Medium* medium;  ///< the medium below the surface
+  int channel;    ///< color channel for refraction by a dispersive surface; 3 for all channels
+  Beyond beyond;  ///< the media below the surface
 };
 
 /// The kernel parameters that all paths of a bounce share.
@@ -56,7 +56,7 @@ class VertexQueue {
     const PathState* path;
     float width;
     int channel;
-    const Medium* medium;  ///< the medium below the surface
+    const NestedMedia* media;  ///< the media below the surface
   };
 
   void add_normal_maps(int lane, const ShadingPoint& point);

@@ -38,6 +38,7 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
   lighting_ = world.lighting;
   step_ = {.sample_width = 1 / std::sqrt(static_cast<float>(world.samples))};
   vertices_.begin(*shading_, *lighting_);
+  media_.clear();
   count_ = rays.size();
   for (std::size_t i = 0; i < count_; ++i) {
     rays_[i] = rays[i];
@@ -166,9 +167,21 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
   return {.hit = hit, .point = point};
 }
 
+bool Wave::passes_hidden_surface(const PathState& path, const ShadingPoint& point) {
+  if (path.media == nullptr) return false;
+  const Medium* own = Shading::enclosed_medium(point);
+  if (!NestedMediaTable::is_hidden(own, point.at.front, path.media)) return false;
+  left_bodies_.push_back({.distance = point.at.distance, .medium = own});
+  return true;
+}
+
 bool Wave::cross_medium(const Ray& ray, const std::optional<Hit>& hit, float distance,
                         PathState& path) {
   const MediumEvent event = microtrace::cross_medium(world_->bvh, step_, ray, hit, distance, path);
+  for (const LeftBody& body : left_bodies_) {
+    if (event.arrives || body.distance < event.distance)
+      path.media = media_.without(path.media, *body.medium);
+  }
   if (event.scattered) outgoing_.add_scattered(*event.scattered, path);
   return event.arrives;
 }
@@ -179,8 +192,10 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   std::optional<Hit> hit = hits_[i];
   const bool from_camera = path.pdf == 0;
   std::uint32_t layer = 0;
-  for (; hit && !stops(path, point, layer); ++layer) hit = next(i, *hit, point);
-  if (path.medium != nullptr && !cross_medium(ray, hit, point.at.distance, path)) return;
+  left_bodies_.clear();
+  for (; hit && (passes_hidden_surface(path, point) || !stops(path, point, layer)); ++layer)
+    hit = next(i, *hit, point);
+  if (path.media != nullptr && !cross_medium(ray, hit, point.at.distance, path)) return;
   if (!hit) return escape(ray, path);
   if (!from_camera && options_.backfaces == Backfaces::pass && Shading::lets_light_in(point) &&
       lighting_->may_surround()) {
@@ -200,12 +215,13 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   }
   if (step_.depth - path.scatterings >= options_.max_depth || point.look->material->unlit) return;
   const Material& material = *point.look->material;
-  const Vertex vertex{.ray = ray,
-                      .hit = *hit,
-                      .point = point,
-                      .path = path,
-                      .channel = channel_of(material, path),
-                      .medium = Shading::medium_beyond(point, path.medium)};
+  const Vertex vertex{
+      .ray = ray,
+      .hit = *hit,
+      .point = point,
+      .path = path,
+      .channel = channel_of(material, path),
+      .beyond = media_.cross(Shading::enclosed_medium(point), point.at.front, path.media)};
   vertices_.add(step_, vertex, outgoing_);
 }
 

@@ -19,6 +19,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace microtrace {
 
@@ -58,6 +59,9 @@ class Wave {
   /// Moves a path through its medium along its ray. Returns true if the path reaches the hit. If it
   /// is scattered before, adds its next ray.
   bool cross_medium(const Ray& ray, const std::optional<Hit>& hit, float distance, PathState& path);
+  /// True if the path passes through the surface of a body without noticing it, because it is in
+  /// another body that overlaps this one. Remembers the surface until the path moves.
+  bool passes_hidden_surface(const PathState& path, const ShadingPoint& point);
   /// Advances path i by one bounce. `point` is the shading point of its ray's hit, if any.
   void step(std::size_t i, ShadingPoint& point);
   /// Advances all paths by one bounce.
@@ -87,6 +91,13 @@ class Wave {
   ShadowRays shadow_rays_;
   std::optional<float> ground_;
   GroundShadows ground_shadows_;
+  NestedMediaTable media_;
+  /// A body that the current ray leaves through a hidden surface, and the distance of the surface.
+  struct LeftBody {
+    float distance;
+    const Medium* medium;
+  };
+  std::vector<LeftBody> left_bodies_;
   const ShadingKernels* kernels_;
   HitLanes hit_lanes_{};
   std::size_t count_ = 0;

@@ -23,8 +23,14 @@ double single_scattering_albedo(double multiple_scattering_albedo) {
   return std::clamp(1 - s * s, 0.0, 1.0);
 }
 
+float Medium::ior_of(int channel) const {
+  if (channel == 3) return ior;
+  const float half_spread = (ior - 1) * 0.025F * dispersion;
+  return std::max(ior + static_cast<float>(channel - 1) * half_spread, 1.0F);
+}
+
 Medium medium_of(const Material& m) {
-  Medium medium;
+  Medium medium{.ior = m.ior == 0 ? 1e6F : m.ior, .dispersion = m.dispersion};
   for (int c = 0; c < 3; ++c) {
     // By the Beer-Lambert law, the transmittance after a length l is color^(l / distance).
     const double left = std::clamp<double>(m.volume->attenuation_color[c], 0x1p-30, 1);

@@ -10,8 +10,13 @@ struct Medium {
   Vec3 extinction{0};    ///< by absorption and scattering, in powers of two per length
   Vec3 albedo{0};        ///< scattered fraction of the extinction; 0 where there is no extinction
   float anisotropy = 0;  ///< mean cosine of the scattering angle, in (-1, 1)
+  float ior = 1;         ///< index of refraction; a large number if it is infinite
+  float dispersion = 0;  ///< 20 / Abbe number
 
   [[nodiscard]] bool scatters() const { return albedo != Vec3(0); }
+  /// The index of refraction for red, green or blue (0 to 2) according to KHR_materials_dispersion;
+  /// without dispersion for channel 3.
+  [[nodiscard]] float ior_of(int channel) const;
 };
 
 /// True if light is refracted at the surface, because both sides differ in their index of

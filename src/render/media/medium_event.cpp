@@ -57,7 +57,7 @@ Direction sample_direction(float anisotropy, const Vec3& d, const Vec2& u) {
 MediumEvent cross_medium(const Bvh& bvh, const WaveStep& step, const Ray& ray,
                          const std::optional<Hit>& hit, float distance, PathState& path) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Medium& medium = *path.medium;
+  const Medium& medium = *path.media->medium;
   if (!medium.scatters()) {
     // A medium that only absorbs and has no end is treated as a vacuum.
     if (hit) path.throughput *= beer_lambert(medium.extinction, distance);
@@ -80,6 +80,7 @@ MediumEvent cross_medium(const Bvh& bvh, const WaveStep& step, const Ray& ray,
   path.pdf = pdf;
   path.is_scattered = true;
   return {.arrives = false,
+          .distance = *flight.distance,
           .scattered = Ray{
               .o = origin_of(bvh, ray, *flight.distance / length, hit ? double{hit->t} : kInfinity),
               .t_min = 0,

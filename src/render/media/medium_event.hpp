@@ -16,12 +16,13 @@ inline constexpr std::uint32_t kMostScatterings = 4096;
 /// The result of a path's flight along its ray in a medium.
 struct MediumEvent {
   bool arrives = true;             ///< true if the path reaches the surface
+  double distance = 0;             ///< distance of the scattering event, if there is one
   std::optional<Ray> scattered{};  ///< the next ray of a path that is scattered before
 };
 
-/// Samples a flight in path.medium along the ray, up to its hit at this distance or, if there is no
-/// hit, without an end. Updates the path's state. A path that neither arrives nor is scattered has
-/// ended. Next rays don't start on a surface, and never on the other side of one.
+/// Samples a flight in the medium of path.media along the ray, up to its hit at this distance or,
+/// if there is no hit, without an end. Updates the path's state. A path that neither arrives nor is
+/// scattered has ended. Next rays don't start on a surface, and never on the other side of one.
 [[nodiscard]] MediumEvent cross_medium(const Bvh& bvh, const WaveStep& step, const Ray& ray,
                                        const std::optional<Hit>& hit, float distance,
                                        PathState& path);

@@ -155,19 +155,18 @@ class Shading {
 
   /// Returns the BSDF's input on the ray's side. Unless it is constant, it is computed and stored
   /// in `varying`. `channel` is the color channel of a path through dispersive media, 0 to 2; 3 for
-  /// all channels.
+  /// all channels. `outside` is the medium around a body that encloses a medium; null for a vacuum.
   [[nodiscard]] const BsdfInput& bsdf_input(const ShadingPoint& point, int channel,
+                                            const Medium* outside,
                                             std::optional<BsdfInput>& varying) const {
     const bool has_colors = point.at.mesh != nullptr && !point.at.mesh->colors.empty();
     if (point.look->constant && !has_colors) return *point.look->constant;
-    return varying.emplace(parameters(point, channel), layers(point));
+    return varying.emplace(parameters(point, channel, outside), layers(point));
   }
 
-  /// The medium on the other side of the surface, as seen from a ray in the medium `here`. Null
-  /// stands for a vacuum.
-  [[nodiscard]] static const Medium* medium_beyond(const ShadingPoint& point, const Medium* here) {
-    if (!encloses_medium(*point.look->material)) return here;
-    return point.at.front ? &point.look->medium : nullptr;
+  /// The medium that the surface encloses; null if there is none.
+  [[nodiscard]] static const Medium* enclosed_medium(const ShadingPoint& point) {
+    return encloses_medium(*point.look->material) ? &point.look->medium : nullptr;
   }
 
  private:
@@ -177,7 +176,8 @@ class Shading {
     std::uint32_t look;
   };
 
-  [[nodiscard]] static bsdf::Parameters parameters(const ShadingPoint& point, int channel);
+  [[nodiscard]] static bsdf::Parameters parameters(const ShadingPoint& point, int channel,
+                                                   const Medium* outside);
   [[nodiscard]] static bsdf::Layers layers(const ShadingPoint& point);
   [[nodiscard]] static Vec4 base_color(const ShadingPoint& point);
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
