@@ -65,6 +65,8 @@ class FeatureTracer {
   /// Follows path i, whose ray hits something, to its next surface that is not transparent.
   void step(std::size_t i, Hit hit);
   void escape(const Ray& ray, const Path& path);
+  /// Follows the path through its medium. Adds the features of light that the medium scatters.
+  void cross_medium(float distance, Path& path);
   /// Adds the features of the surface, where the path ends.
   void end(const Vertex& vertex, const Path& path);
   /// Continues the path on the rays that a smooth surface reflects and transmits.

@@ -42,6 +42,7 @@ Medium medium_of(const Material& m) {
     }
   }
   if (m.volume_scatter) {
+    medium.color = m.volume_scatter->multiscatter_color;
     medium.anisotropy = std::clamp(m.volume_scatter->anisotropy, -kMostAnisotropy, kMostAnisotropy);
   }
   return medium;

@@ -9,6 +9,7 @@ namespace microtrace {
 struct Medium {
   Vec3 extinction{0};    ///< by absorption and scattering, in powers of two per length
   Vec3 albedo{0};        ///< scattered fraction of the extinction; 0 where there is no extinction
+  Vec3 color{0};         ///< approximate color of a thick body by scattering
   float anisotropy = 0;  ///< mean cosine of the scattering angle, in (-1, 1)
   float ior = 1;         ///< index of refraction; a large number if it is infinite
   float dispersion = 0;  ///< 20 / Abbe number
