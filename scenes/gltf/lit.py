@@ -326,7 +326,8 @@ def moving():
 
 
 def media():
-    """Balls of scattering media, with refracting, clear and diffuse surfaces, before a checkered wall."""
+    """Balls of scattering media, with refracting, clear and diffuse surfaces, before a checkered wall. One contains ice in
+    water; another overlaps a ball of glass."""
     asset = Asset()
     primitive = ball(asset)
     glass, paper = {"transmissionFactor": 1}, {"diffuseTransmissionFactor": 1}
@@ -347,6 +348,13 @@ def media():
     for place, (name, roughness, extensions) in enumerate(kinds):
         stand(asset, name, primitive, material(asset, name, roughness=roughness, extensions=extensions),
               translation=[place % 3 - 1, 0.5 - place // 3, 0], scale=[0.46] * 3)
+    bodies = [("water", 1.33, [0.9, 0.7, 0.6], [1, -0.5, 0], 0.3), ("ice", 1.31, [0.8, 0.9, 0.9], [1, -0.5, 0.1], 0.15),
+              ("pearl", 1.5, [0.9, 0.5, 0.7], [1.3, 0.2, 0.2], 0.25)]
+    for name, ior, color, center, radius in bodies:
+        look = material(asset, name, roughness=0, extensions={
+            "transmission": glass, "ior": {"ior": ior},
+            "volume": {"thicknessFactor": 1, "attenuationDistance": 0.3, "attenuationColor": color}})
+        stand(asset, name, primitive, look, translation=center, scale=[radius] * 3)
     checkered_wall(asset, 1.8, 1.4, -0.8, 12)
     light(asset, "Key", "directional", [1, 0.95, 0.9], 2, {"rotation": unit((-0.35, 0.3, 0.1, 0.88))})
     camera(asset, [0, 0, 3.2])
