@@ -15,6 +15,9 @@
 namespace microtrace {
 namespace {
 
+/// Limits footprints in media without an end, so that they stay finite.
+constexpr double kLongestFlight = 1e30;
+
 /// Returns true if the path survives Russian roulette, which compensates its throughput. There is
 /// no upper limit below 1 as at surfaces: over hundreds of events, the compensation would make the
 /// variance infinite.
@@ -73,7 +76,7 @@ MediumEvent cross_medium(const Bvh& bvh, const WaveStep& step, const Ray& ray,
   const double length = std::sqrt(glm::dot(DVec3(ray.d), DVec3(ray.d)));
   const auto [wi, pdf] = sample_direction(medium.anisotropy, unit<1>(ray.d),
                                           path.sobol.pair(step.pair(sampling::kDirectionPair)));
-  path.begin += path.spread * static_cast<float>(*flight.distance);
+  path.begin += path.spread * static_cast<float>(std::min(*flight.distance, kLongestFlight));
   // The spread doesn't accumulate over hundreds of events, or it would exceed the distances that
   // light diffuses. Few events forget all earlier directions.
   path.spread = std::max(path.spread, step.spread(pdf));
