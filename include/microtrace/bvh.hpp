@@ -95,6 +95,12 @@ class MICROTRACE_EXPORT Bvh {
   /// especially if spawns that leave the same hit are consecutive.
   void spawn_origins(std::span<const Spawn> spawns, std::span<std::optional<Vec3>> origins) const;
 
+  /// Returns true if no surface meets any segment between two points that differ from p by at most
+  /// one float32 step in each coordinate. A point on a ray may therefore be rounded to p without
+  /// crossing a surface. Uses float64 with error bounds, so it may return false next to a surface
+  /// that meets no such segment. The result does not depend on BvhOptions.
+  [[nodiscard]] bool is_clear(const Vec3& p) const;
+
   /// Returns true if the ray hits anything. Faster than intersect.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
@@ -105,6 +111,7 @@ class MICROTRACE_EXPORT Bvh {
   /// `left` must be empty or have the same size. If it is not empty, each rays[i] must leave a hit
   /// with primitive left[i], with an origin that spawn_origin returned for the ray's direction.
   /// Such a ray can't hit the same triangle again, so it is not tested against that triangle.
+  /// kNoPrimitive stands for a ray that leaves no surface.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
                  std::span<const PrimitiveId> left = {}) const;
 

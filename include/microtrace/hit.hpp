@@ -9,6 +9,9 @@ namespace microtrace {
 /// for each triangle. Of two hits at the same t, the one with the lower number counts as nearer.
 using PrimitiveId = std::uint32_t;
 
+/// Stands for no primitive.
+inline constexpr PrimitiveId kNoPrimitive = ~PrimitiveId{0};
+
 struct Hit {
   PrimitiveId id = 0;
   float t = 0;  ///< the exact ray parameter, rounded once to the nearest float32 (ties to even)

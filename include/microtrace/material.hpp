@@ -41,8 +41,9 @@ struct Transmission {
   bool operator==(const Transmission&) const = default;
 };
 
-/// The medium that the surface encloses (KHR_materials_volume). A surface without a volume is a
-/// thin wall, which does not refract. Absorption depends on the actual length of the path in the
+/// The medium that the surface encloses (KHR_materials_volume), if light can enter it: by
+/// transmission, which is then refracted, or by diffuse transmission. A surface without a volume is
+/// a thin wall, which does not refract. Absorption depends on the actual length of the path in the
 /// medium; the thickness only distinguishes thin walls (0) from volumes.
 struct Volume {
   float thickness = 0;                  ///< in the mesh's local space, not negative; 0: a thin wall
@@ -52,6 +53,19 @@ struct Volume {
   Vec3 attenuation_color{1};  ///< linear Rec. 709, each in [0, 1]
 
   bool operator==(const Volume&) const = default;
+};
+
+/// Scattering in the medium that the surface encloses (KHR_materials_volume_scatter, a draft of
+/// 2025). The attenuation of `Volume` then counts both absorbed and scattered light. It has no
+/// effect without a finite attenuation_distance.
+struct VolumeScatter {
+  /// The approximate color of a thick body by scattering, linear Rec. 709, each in [0, 1].
+  Vec3 multiscatter_color{0};
+  /// The mean cosine of scattering angles, in [-1, 1]: light is scattered mostly forward if
+  /// positive, mostly back if negative.
+  float anisotropy = 0;
+
+  bool operator==(const VolumeScatter&) const = default;
 };
 
 /// A coat with index of refraction 1.5 over all other layers (KHR_materials_clearcoat).
@@ -148,6 +162,7 @@ struct Material {
   std::optional<Specular> specular{};
   std::optional<Transmission> transmission{};
   std::optional<Volume> volume{};
+  std::optional<VolumeScatter> volume_scatter{};
   std::optional<Clearcoat> clearcoat{};
   std::optional<Sheen> sheen{};
   std::optional<Anisotropy> anisotropy{};

@@ -42,7 +42,8 @@ struct Ground {
 };
 
 struct PathOptions {
-  /// The maximum path length: 1 is emission only, 2 adds direct light. At least 1.
+  /// The maximum path length in segments between surfaces: 1 is emission only, 2 adds direct light.
+  /// At least 1. Scattering events in media don't count.
   std::uint32_t max_depth = 32;
   Backfaces backfaces = Backfaces::pass;
   BsdfModel bsdf = BsdfModel::conserving;

@@ -39,6 +39,7 @@ from .materials import (
     TextureUse,
     Transmission,
     Volume,
+    VolumeScatter,
 )
 from .pictures import Picture, frame, render
 from .prepared import OpenMeshWarning, PreparedScene
@@ -101,6 +102,7 @@ __all__ = [
     "UsageError",
     "View",
     "Volume",
+    "VolumeScatter",
     "__version__",
     "cameras",
     "frame",

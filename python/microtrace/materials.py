@@ -79,6 +79,14 @@ class Volume(Brief):
 
 
 @dataclass(eq=False, repr=False)
+class VolumeScatter(Brief):
+    """Scattering in the medium of the volume (KHR_materials_volume_scatter, a draft of 2025)."""
+
+    multiscatter_color: Color = (0.0, 0.0, 0.0)  #: color of a thick body, each in [0, 1]
+    scatter_anisotropy: float = 0.0  #: mean cosine of scattering angles, in [-1, 1]
+
+
+@dataclass(eq=False, repr=False)
 class Clearcoat(Brief):
     """A coat with index of refraction 1.5 over all other layers (KHR_materials_clearcoat)."""
 
@@ -168,6 +176,7 @@ class Material(Brief):
     specular: Specular | None = None
     transmission: Transmission | None = None
     volume: Volume | None = None
+    volume_scatter: VolumeScatter | None = None
     clearcoat: Clearcoat | None = None
     sheen: Sheen | None = None
     anisotropy: Anisotropy | None = None

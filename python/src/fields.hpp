@@ -51,6 +51,15 @@ struct Class<Volume> {
 };
 
 template <>
+struct Class<VolumeScatter> {
+  static constexpr const char* kModule = "materials";
+  static constexpr const char* kName = "VolumeScatter";
+  static constexpr auto kFields =
+      std::tuple(Field{"multiscatter_color", &VolumeScatter::multiscatter_color},
+                 Field{"scatter_anisotropy", &VolumeScatter::anisotropy});
+};
+
+template <>
 struct Class<Clearcoat> {
   static constexpr const char* kModule = "materials";
   static constexpr const char* kName = "Clearcoat";
@@ -137,8 +146,9 @@ struct Class<Material> {
       Field{"emissive_texture", &Material::emissive_texture}, Field{"ior", &Material::ior},
       Field{"dispersion", &Material::dispersion}, Field{"specular", &Material::specular},
       Field{"transmission", &Material::transmission}, Field{"volume", &Material::volume},
-      Field{"clearcoat", &Material::clearcoat}, Field{"sheen", &Material::sheen},
-      Field{"anisotropy", &Material::anisotropy}, Field{"iridescence", &Material::iridescence},
+      Field{"volume_scatter", &Material::volume_scatter}, Field{"clearcoat", &Material::clearcoat},
+      Field{"sheen", &Material::sheen}, Field{"anisotropy", &Material::anisotropy},
+      Field{"iridescence", &Material::iridescence},
       Field{"diffuse_transmission", &Material::diffuse_transmission},
       Field{"specular_glossiness", &Material::specular_glossiness});
 };

@@ -25,6 +25,7 @@ def test_defaults_are_those_of_the_library():
                 specular=mt.Specular(),
                 transmission=mt.Transmission(),
                 volume=mt.Volume(),
+                volume_scatter=mt.VolumeScatter(),
                 clearcoat=mt.Clearcoat(),
                 sheen=mt.Sheen(),
                 anisotropy=mt.Anisotropy(),

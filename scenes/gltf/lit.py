@@ -3,7 +3,7 @@ without optimization draw it soon.
 
 materials.glb has 24 balls, one for each kind of scattering, before a checkered wall. textured.glb has a texture in every
 slot, masks and blending. lamps.glb is a room with 64 punctual lights and emissive meshes. moving.glb bends, morphs and
-rises at --time 0 to 1. far.glb stands where float32 has a number every half meter. ../sky.exr is an environment map.
+rises at --time 0 to 1. media.glb has bodies that scatter light inside. far.glb stands where float32 has a number every half meter. ../sky.exr is an environment map.
 """
 
 import math
@@ -325,6 +325,42 @@ def moving():
     return asset
 
 
+def media():
+    """Balls of scattering media, with refracting, clear and diffuse surfaces, before a checkered wall. One contains ice in
+    water; another overlaps a ball of glass."""
+    asset = Asset()
+    primitive = ball(asset)
+    glass, paper = {"transmissionFactor": 1}, {"diffuseTransmissionFactor": 1}
+
+    def medium(distance, color, scatter, anisotropy=0):
+        return {"volume": {"thicknessFactor": 1, "attenuationDistance": distance, "attenuationColor": color},
+                "volume_scatter": {"multiscatterColor": scatter, "scatterAnisotropy": anisotropy}}
+
+    kinds = [
+        ("milk", 0.05, {"transmission": glass, "ior": {"ior": 1.35}, **medium(0.1, [0.5, 0.5, 0.5], [0.95, 0.93, 0.88], 0.5)}),
+        ("jade", 0.3, {"transmission": glass, "ior": {"ior": 1.6}, **medium(0.2, [0.5, 0.7, 0.4], [0.2, 0.6, 0.3])}),
+        ("mist", 0, {"transmission": glass, "ior": {"ior": 1}, "specular": {"specularFactor": 0},
+                     **medium(1, [0.3, 0.3, 0.3], [1, 1, 1], 0.7)}),
+        ("skin", 0.4, {"diffuse_transmission": paper, **medium(0.1, [0.7, 0.3, 0.15], [0.8, 0.5, 0.4])}),
+        ("candle", 0.5, {"diffuse_transmission": paper, **medium(0.3, [0.6, 0.5, 0.3], [0.9, 0.8, 0.5], -0.3)}),
+        ("stained", 0, {"transmission": glass, **medium(0.5, [0.2, 0.6, 0.9], [0, 0, 0.9])}),
+    ]
+    for place, (name, roughness, extensions) in enumerate(kinds):
+        stand(asset, name, primitive, material(asset, name, roughness=roughness, extensions=extensions),
+              translation=[place % 3 - 1, 0.5 - place // 3, 0], scale=[0.46] * 3)
+    bodies = [("water", 1.33, [0.9, 0.7, 0.6], [1, -0.5, 0], 0.3), ("ice", 1.31, [0.8, 0.9, 0.9], [1, -0.5, 0.1], 0.15),
+              ("pearl", 1.5, [0.9, 0.5, 0.7], [1.3, 0.2, 0.2], 0.25)]
+    for name, ior, color, center, radius in bodies:
+        look = material(asset, name, roughness=0, extensions={
+            "transmission": glass, "ior": {"ior": ior},
+            "volume": {"thicknessFactor": 1, "attenuationDistance": 0.3, "attenuationColor": color}})
+        stand(asset, name, primitive, look, translation=center, scale=[radius] * 3)
+    checkered_wall(asset, 1.8, 1.4, -0.8, 12)
+    light(asset, "Key", "directional", [1, 0.95, 0.9], 2, {"rotation": unit((-0.35, 0.3, 0.1, 0.88))})
+    camera(asset, [0, 0, 3.2])
+    return asset
+
+
 def far():
     """Some balls on the Earth's surface, in meters from its center."""
     asset = Asset()
@@ -384,4 +420,4 @@ def sky():
     return exr(32, 16, pixel)
 
 
-SCENES = {"materials": materials, "textured": textured, "lamps": lamps, "moving": moving, "far": far}
+SCENES = {"materials": materials, "textured": textured, "lamps": lamps, "moving": moving, "media": media, "far": far}

@@ -4,9 +4,11 @@
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_packet.hpp"
+#include "accel/ray_runs.hpp"
 #include "accel/ray_stream.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 #include "accel/resolve/packet_resolver.hpp"
+#include "accel/spawn/clear_point.hpp"
 #include "accel/spawn/fast_spawn.hpp"
 #include "accel/spawn/spawn_among.hpp"
 #include "accel/stage_counts.hpp"
@@ -39,30 +41,6 @@ std::optional<Hit> test_all(const Primitives& primitives, const Ray& ray) {
     packet.test(id, shape);
   });
   return packet.hit(0);
-}
-
-// Returns the number of leading rays with a common origin, at most kPacketRays.
-std::size_t common_origin_length(std::span<const Ray> rays) {
-  const Vec3 o = rays[0].o;
-  const std::size_t limit = std::min<std::size_t>(rays.size(), kPacketRays);
-  std::size_t length = 1;
-  while (length < limit && rays[length].o == o) ++length;
-  return length;
-}
-
-// Fewer rays than this are traced faster one by one than as a packet or a stream.
-constexpr std::size_t kLeastPacket = 8, kLeastStream = 8;
-
-// Returns the number of leading rays before the next run of kLeastPacket rays with a common origin:
-// at least 1, and at most kStreamRays.
-std::size_t unrelated_length(std::span<const Ray> rays) {
-  const std::size_t limit = std::min<std::size_t>(rays.size(), kStreamRays);
-  for (std::size_t i = 1; i + kLeastPacket <= limit; ++i) {
-    if (rays[i].o == rays[i + kLeastPacket - 1].o &&
-        common_origin_length(rays.subspan(i)) >= kLeastPacket)
-      return i;
-  }
-  return limit;
 }
 
 }  // namespace
@@ -201,6 +179,12 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
     spawns = spawns.subspan(done);
     origins = origins.subspan(done);
   }
+}
+
+bool Bvh::is_clear(const Vec3& p) const {
+  const FloatEnvironment environment;
+  return is_clear_among(impl_->primitives, impl_->has_tree ? &impl_->tree : nullptr, impl_->outside,
+                        p);
 }
 
 bool Bvh::occluded(const Ray& ray) const {

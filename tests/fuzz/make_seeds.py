@@ -280,6 +280,7 @@ def materials():
     models = [
         ({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.4},
           "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0.5, "attenuationColor": [1, 0.5, 0]},
+          "KHR_materials_volume_scatter": {"multiscatterColor": [0.9, 0.5, 1], "scatterAnisotropy": 0.5},
           "KHR_materials_dispersion": {"dispersion": 0.5}}, {"metallicFactor": 0, "roughnessFactor": 0.1}),
         ({"KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.2, "clearcoatNormalTexture": texture},
           "KHR_materials_sheen": {"sheenColorFactor": [1, 0.5, 1], "sheenRoughnessFactor": 0.3}}, {"metallicRoughnessTexture": texture}),

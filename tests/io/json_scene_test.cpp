@@ -142,7 +142,7 @@ TEST(JsonScene, ReadsMaterials) {
     "materials": {
       "lamp": {"emissive": [0, 5, 0]},
       "glass": {"base_color": "red", "roughness": 0.25, "ior": 1.75, "transmission": 1,
-                "volume": {"attenuation_distance": 2}, "iridescence": {"thickness": 300}}},
+                "volume": {"attenuation_distance": 2}, "volume_scatter": {"anisotropy": -0.5}, "iridescence": {"thickness": 300}}},
     "objects": [
       {"type": "sphere", "center": [0,0,0], "radius": 1, "material": "glass"},
       {"type": "sphere", "center": [0,0,0], "radius": 2, "color": "red"},
@@ -157,6 +157,8 @@ TEST(JsonScene, ReadsMaterials) {
   EXPECT_EQ(glass.transmission.value().factor, 1);
   EXPECT_GT(glass.volume.value().thickness, 0);
   EXPECT_EQ(glass.volume.value().attenuation_distance, 2);
+  EXPECT_EQ(glass.volume_scatter.value().multiscatter_color, Vec3(1));
+  EXPECT_EQ(glass.volume_scatter.value().anisotropy, -0.5F);
   EXPECT_EQ(glass.iridescence.value().factor, 1);
   EXPECT_EQ(glass.iridescence.value().thickness_maximum, 300);
   EXPECT_FALSE(glass.clearcoat || glass.sheen || glass.specular || glass.diffuse_transmission);

@@ -192,6 +192,7 @@ TEST(ValidateMaterial, Ranges) {
   all.specular.emplace();
   all.transmission.emplace();
   all.volume.emplace();
+  all.volume_scatter.emplace();
   all.clearcoat.emplace();
   all.sheen.emplace();
   all.anisotropy.emplace();
@@ -208,6 +209,10 @@ TEST(ValidateMaterial, Ranges) {
   all.clearcoat->roughness = -1;
   EXPECT_EQ(broken(all), "clearcoat/roughness: must be from 0 to 1, is -1");
   all.clearcoat.reset();
+  all.volume_scatter->anisotropy = 1.5F;
+  EXPECT_EQ(broken(all), "volume_scatter/anisotropy: must be from -1 to 1, is 1.5");
+  all.volume_scatter->multiscatter_color = Vec3(0, 0, 2);
+  EXPECT_THAT(broken(all), testing::StartsWith("volume_scatter/multiscatter_color: "));
   all.volume->attenuation_distance = 0;
   EXPECT_EQ(broken(all), "volume/attenuation_distance: must be positive");
 }

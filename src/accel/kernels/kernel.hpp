@@ -5,6 +5,8 @@
 
 #include "accel/layout.hpp"
 
+#include <microtrace/hit.hpp>
+
 #include <cstdint>
 
 namespace microtrace {
@@ -25,7 +27,6 @@ struct ClosestSoFar {
   float lo, hi;
   std::uint32_t id;
 };
-inline constexpr std::uint32_t kNoPrimitive = ~0U;
 
 /// A callback for hits that float32 can't decide. If the ray hits primitive `id` before the nearest
 /// hit so far, consider() sets `best` to this hit.

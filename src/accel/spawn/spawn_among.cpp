@@ -12,13 +12,6 @@
 namespace microtrace {
 namespace {
 
-bool overlap(const Bounds& a, const Bounds& b) {
-  for (int k = 0; k < 3; ++k) {
-    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
-  }
-  return true;
-}
-
 /// The other surfaces near a hit, and the required side of each, on which the new ray must start.
 /// It is the side of the point w of Bvh::spawn_origin: just before the hit if the new ray goes
 /// back, otherwise just behind the hit.

@@ -8,6 +8,14 @@
 
 namespace microtrace {
 
+/// Returns true if two closed boxes have a point in common.
+[[nodiscard]] inline bool overlap(const Bounds& a, const Bounds& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
+  }
+  return true;
+}
+
 /// Calls f(id) for every primitive in the tree with a point in the closed box. May also call f for
 /// other primitives nearby, and more than once for a primitive.
 template <class F>

@@ -46,9 +46,13 @@ float read_at_least(const JsonReader& json, double least) {
   json.fail("must be at least " + decimal(least) + ", is " + decimal(x));
 }
 
-float read_share(const JsonReader& json) {
-  require_range(json, 0, 1);
+float read_in_range(const JsonReader& json, double least, double most) {
+  require_range(json, least, most);
   return json.float32();
+}
+
+float read_share(const JsonReader& json) {
+  return read_in_range(json, 0, 1);
 }
 
 float read_positive(const JsonReader& json) {

@@ -26,6 +26,9 @@ inline constexpr double kMaxRadiance = 1e9;
 /// Reads a number that is at least `least` and finite in float32.
 [[nodiscard]] float read_at_least(const JsonReader& json, double least);
 
+/// Reads a number from `least` to `most`.
+[[nodiscard]] float read_in_range(const JsonReader& json, double least, double most);
+
 /// Reads a number from 0 to 1.
 [[nodiscard]] float read_share(const JsonReader& json);
 

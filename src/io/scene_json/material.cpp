@@ -16,6 +16,9 @@ class Members {
   void at_least(std::string_view key, double least, float& out) const {
     if (const auto member = json_.find(key)) out = read_at_least(*member, least);
   }
+  void in_range(std::string_view key, double least, double most, float& out) const {
+    if (const auto member = json_.find(key)) out = read_in_range(*member, least, most);
+  }
   void positive(std::string_view key, float& out) const {
     if (const auto member = json_.find(key)) out = read_positive(*member);
   }
@@ -53,6 +56,15 @@ Volume read_volume(const JsonReader& json, const Colors& colors) {
   Volume result{.thickness = 1};
   members.positive("attenuation_distance", result.attenuation_distance);
   members.color("attenuation_color", result.attenuation_color);
+  return result;
+}
+
+VolumeScatter read_volume_scatter(const JsonReader& json, const Colors& colors) {
+  json.require_object({"multiscatter_color", "anisotropy"});
+  const Members members(json, colors);
+  VolumeScatter result{.multiscatter_color = Vec3(1)};
+  members.color("multiscatter_color", result.multiscatter_color);
+  members.in_range("anisotropy", -1, 1, result.anisotropy);
   return result;
 }
 
@@ -97,8 +109,8 @@ DiffuseTransmission read_diffuse_transmission(const JsonReader& json, const Colo
 
 Material read_material(const JsonReader& json, const Colors& colors) {
   json.require_object({"base_color", "double_sided", "unlit", "metallic", "roughness", "emissive",
-                       "ior", "dispersion", "specular", "transmission", "volume", "clearcoat",
-                       "sheen", "iridescence", "diffuse_transmission"});
+                       "ior", "dispersion", "specular", "transmission", "volume", "volume_scatter",
+                       "clearcoat", "sheen", "iridescence", "diffuse_transmission"});
   const Members members(json, colors);
   Material result;
   Vec3 base_color(1);
@@ -116,6 +128,9 @@ Material read_material(const JsonReader& json, const Colors& colors) {
   }
   if (const auto own = json.find("specular")) result.specular = read_specular(*own, colors);
   if (const auto own = json.find("volume")) result.volume = read_volume(*own, colors);
+  if (const auto own = json.find("volume_scatter")) {
+    result.volume_scatter = read_volume_scatter(*own, colors);
+  }
   if (const auto own = json.find("clearcoat")) result.clearcoat = read_clearcoat(*own, colors);
   if (const auto own = json.find("sheen")) result.sheen = read_sheen(*own, colors);
   if (const auto own = json.find("iridescence")) {

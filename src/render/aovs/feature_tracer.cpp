@@ -130,17 +130,22 @@ void FeatureTracer::step(std::size_t i, Hit hit) {
     ShadingPoint point = world_.shading->point(ray, hit);
     point.width = path.footprint.at(point.at.distance);
     Shading::find_texel_address(point);
-    if (const float coverage = world_.shading->coverage(point, depth_ == 1); coverage > 0) {
-      const BsdfInput& input = world_.shading->bsdf_input(point, 3, varying_);
+    const Medium* own = Shading::enclosed_medium(point);
+    if (NestedMediaTable::is_hidden(own, point.at.front, path.media)) {
+      path.media = media_.without(path.media, *own);
+    } else if (const float coverage = world_.shading->coverage(point, depth_ == 1); coverage > 0) {
+      const Beyond beyond = media_.cross(own, point.at.front, path.media);
+      const BsdfInput& input = world_.shading->bsdf_input(point, 3, beyond.outside, varying_);
       const Vertex vertex{.ray = ray,
                           .hit = hit,
                           .point = point,
                           .parameters = input.parameters,
                           .layers = input.layers,
-                          .n = shading_normal(point, d)};
+                          .n = shading_normal(point, d),
+                          .beyond = beyond.media};
       Path here = path;
       here.share *= coverage;
-      here.tint *= beer_lambert(path.absorption, point.at.distance);
+      if (path.media != nullptr) cross_medium(point.at.distance, here);
       if (coverage == 1) return scatter(vertex, here);
       end(vertex, here);
       path.share *= 1 - coverage;
@@ -149,6 +154,22 @@ void FeatureTracer::step(std::size_t i, Hit hit) {
     if (!next) return escape(ray, path);
     hit = *next;
   }
+}
+
+void FeatureTracer::cross_medium(float distance, Path& path) {
+  const Medium& medium = *path.media->medium;
+  const Vec3 left = beer_lambert(medium.extinction, distance);
+  if (!medium.scatters()) {
+    path.tint *= left;
+    return;
+  }
+  // Scattered light has the color of the medium and shows the shape of the last surface.
+  DenoiseFeatures& feature = features_[path.slot];
+  const float through = std::max({left.x, left.y, left.z});
+  feature.albedo += path.share * bounded(path.tint * (Vec3(1) - left) * medium.color);
+  feature.normal += path.share * (1 - through) * path.n;
+  path.share *= through;
+  if (through > 0) path.tint *= left / through;
 }
 
 void FeatureTracer::end(const Vertex& vertex, const Path& path) {
@@ -192,7 +213,7 @@ void FeatureTracer::scatter(const Vertex& vertex, const Path& path) {
   if (ways.transmitted > 0) {
     next.share = path.share * ways.transmitted;
     next.tint = path.tint * (p.eta ? glm::sqrt(p.base_color) : p.base_color);
-    if (p.eta) next.absorption = world_.shading->absorption(vertex.point);
+    next.media = vertex.beyond;
     add_ray(vertex, next, ways.through);
   }
   next = path;

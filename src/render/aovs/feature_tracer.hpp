@@ -2,6 +2,7 @@
 /// Computes what denoisers need to know of the surfaces that a picture shows.
 
 #include "render/bsdf/parameters.hpp"
+#include "render/media/nested_media.hpp"
 #include "render/shading/footprint.hpp"
 #include "render/shading/shading.hpp"
 
@@ -42,11 +43,11 @@ class FeatureTracer {
 
   /// A part of a camera ray's light that comes along one way.
   struct Path {
-    std::size_t slot = 0;  ///< index of the camera ray
-    float share = 1;       ///< of the camera ray, by which features are weighed
-    Vec3 tint{1};          ///< the color of the surfaces and media on the way
-    Vec3 absorption{0};    ///< of the current medium, in powers of two per length
-    Vec3 n{0};             ///< normal of the last surface
+    std::size_t slot = 0;                ///< index of the camera ray
+    float share = 1;                     ///< of the camera ray, by which features are weighed
+    Vec3 tint{1};                        ///< the color of the surfaces and media on the way
+    const NestedMedia* media = nullptr;  ///< the current media
+    Vec3 n{0};                           ///< normal of the last surface
     Footprint footprint{};
     bool may_split = true;
   };
@@ -57,12 +58,15 @@ class FeatureTracer {
     const ShadingPoint& point;
     const bsdf::Parameters& parameters;
     const bsdf::Layers& layers;
-    Vec3 n;  ///< shading normal on the ray's side
+    Vec3 n;                     ///< shading normal on the ray's side
+    const NestedMedia* beyond;  ///< the media on the other side
   };
 
   /// Follows path i, whose ray hits something, to its next surface that is not transparent.
   void step(std::size_t i, Hit hit);
   void escape(const Ray& ray, const Path& path);
+  /// Follows the path through its medium. Adds the features of light that the medium scatters.
+  void cross_medium(float distance, Path& path);
   /// Adds the features of the surface, where the path ends.
   void end(const Vertex& vertex, const Path& path);
   /// Continues the path on the rays that a smooth surface reflects and transmits.
@@ -79,6 +83,7 @@ class FeatureTracer {
   std::array<Path, kMostPaths> paths_, next_paths_;
   std::array<Bvh::Spawn, kMostPaths> spawns_;
   std::optional<BsdfInput> varying_;
+  NestedMediaTable media_;
 };
 
 }  // namespace microtrace

@@ -38,7 +38,9 @@ struct alignas(64) PathColumns {
   PathFloats throughput[3];
   PathFloats pdf;                   ///< pdf of the ray's direction; 0 for camera rays
   PathFloats from_p[3], from_n[3];  ///< LightSampleContext of the previous vertex
-  PathFloats absorption[3];  ///< absorption of the current medium, in powers of two per length
+  PathNumbers media;                ///< the current media: a number of NestedMediaTable
+  PathNumbers scatterings;          ///< number of scattering events in media
+  PathNumbers is_scattered;  ///< 1 if the previous vertex is in a medium, where no light is sampled
   PathNumbers channel;       ///< color channel in a dispersive medium, 0 to 2; 3 for all channels
   PathFloats begin, spread;  ///< footprint width at the origin, and growth with distance
 
@@ -76,6 +78,8 @@ struct WaveStep {
   [[nodiscard]] std::uint32_t pair(std::uint32_t which) const {
     return sampling::kFirstVertexPair + (depth - 1) * sampling::kVertexPairs + which;
   }
+  /// The number of the pair of random numbers for a flight through a scattering medium.
+  [[nodiscard]] std::uint32_t flight_pair() const { return sampling::kFirstFlightPair + depth - 1; }
   /// Maximum survival probability of Russian roulette; 1 disables it.
   [[nodiscard]] float most_survival() const { return depth >= kFirstRoulette ? 0.95F : 1; }
   /// Growth of the path's footprint after scattering with this pdf: a quarter of the mean sample

@@ -29,7 +29,7 @@ struct alignas(64) VertexGroup {
   SurfaceLanes surface;
   // Below surfaces that transmit light:
   LaneFloats through_weight[3];  ///< weight of light that crosses the surface
-  LaneFloats absorption[3];
+  LaneNumbers media;             ///< see PathColumns
   LaneNumbers channel;
   /// The material whose constant BSDF `surface` has in a lane; null for other BSDFs.
   std::array<const TexturedMaterial*, kShadingLanes> surface_of{};

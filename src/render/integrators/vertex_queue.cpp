@@ -2,14 +2,21 @@
 
 #include "render/integrators/column_list.hpp"
 #include "render/kernels/dispatch.hpp"
+#include "render/kernels/lane_access.hpp"
+#include "render/shading/beer_lambert.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
+#include <glm/geometric.hpp>
+
 namespace microtrace {
 namespace {
+
+const LaneNumbers kNone{};
 
 /// The lanes in which a comparison is true.
 template <class F>
@@ -55,7 +62,8 @@ Lanes VertexQueue::add(Lanes lanes, const Vertices& from) {
   const HitLanes& hits = group.hits.lanes;
   ColumnList of_paths, of_group;
   of_paths.add(paths.throughput, scatter_.throughput);
-  of_paths.add(paths.absorption, absorptions_);
+  of_paths.add(paths.media, media_);
+  of_paths.add(paths.scatterings, scatterings_);
   of_paths.add(paths.key, scatter_.key);
   of_paths.add(paths.index, scatter_.index);
   of_paths.add(paths.slot, slots_);
@@ -114,7 +122,7 @@ void VertexQueue::add_extensions(Lanes lanes, const VertexGroup& group) {
   list.add(from.coat, to.coat);
   list.add(from.coat_roughness, to.coat_roughness);
   list.add(group.through_weight, scatter_.through_weight);
-  list.add(group.absorption, below_absorptions_);
+  list.add(group.media, below_media_);
   list.add(group.channel, below_channels_);
   list.add(group.coat_normals.is_mapped, coat_normals_.is_mapped);
   list.add(group.coat_normals.texel, coat_normals_.texel);
@@ -172,7 +180,29 @@ void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Outgoin
   count_ = 0;
 }
 
+void VertexQueue::cross_media(Lanes lanes, const NestedMediaTable& media) {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    if (media_[lane] == 0 && (!features_.transmits || below_media_[lane] == 0)) continue;
+    const Vec3 wi = got(lights_.wi, lane);
+    const bool is_below = glm::dot(got(scatter_.outwards, lane), wi) < 0;
+    const NestedMedia* here = media.at(is_below ? below_media_[lane] : media_[lane]);
+    if (here == nullptr) continue;
+    const Medium& medium = *here->medium;
+    // Lights that are infinitely far away are visible only in media without an end. As for paths,
+    // such a medium is treated as a vacuum if it only absorbs.
+    const bool is_far = lights_.is_far[lane] != 0;
+    if (is_far && !medium.scatters()) continue;
+    const Vec3 to_light = got(lights_.to_light, lane);
+    const float distance =
+        is_far ? std::numeric_limits<float>::infinity() : std::sqrt(glm::dot(to_light, to_light));
+    put(scatter_.shadow, lane,
+        got(scatter_.shadow, lane) * beer_lambert(medium.extinction, distance));
+  }
+}
+
 void VertexQueue::cast_shadows(Lanes lanes, OutgoingRays& outgoing) {
+  cross_media(lanes, outgoing.media);
   copy(origins_.direction, lights_.to_light);
   const Lanes found = outgoing.tracer.leave(lanes, origins_);
   outgoing.shadows.add(kernels_, found,
@@ -192,7 +222,7 @@ void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays
     for (int lane = 0; lane < kShadingLanes; ++lane) {
       if (scatter_.is_below[lane] == 0) continue;
       channels_[lane] = below_channels_[lane];
-      for (int c = 0; c < 3; ++c) absorptions_[c][lane] = below_absorptions_[c][lane];
+      media_[lane] = below_media_[lane];
     }
   }
   PathColumns& paths = outgoing.paths;
@@ -207,7 +237,9 @@ void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays
   list.add(scatter_.pdf, paths.pdf);
   list.add(choices_.points.p, paths.from_p);
   list.add(scatter_.frame_n, paths.from_n);
-  list.add(absorptions_, paths.absorption);
+  list.add(media_, paths.media);
+  list.add(scatterings_, paths.scatterings);
+  list.add(kNone, paths.is_scattered);
   list.add(channels_, paths.channel);
   list.add(widths_, paths.begin);
   list.add(spreads_, paths.spread);

@@ -8,6 +8,7 @@
 #include "render/integrators/vertex_group.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/lights/lighting.hpp"
+#include "render/media/nested_media.hpp"
 
 #include <array>
 #include <cstddef>
@@ -22,6 +23,7 @@ namespace microtrace {
 struct OutgoingRays {
   RayTracer& tracer;
   ShadowRays& shadows;
+  const NestedMediaTable& media;
   PathColumns& paths;
   std::size_t count = 0;  ///< number of paths
 };
@@ -54,6 +56,8 @@ class VertexQueue {
   void add_extensions(Lanes lanes, const VertexGroup& group);
   void find_frames();
   void sample_lights(const WaveStep& step, const Lighting& lighting);
+  /// Reduces the light of the samples in the given lanes by the media around the vertices.
+  void cross_media(Lanes lanes, const NestedMediaTable& media);
   /// Adds shadow rays for the given lanes.
   void cast_shadows(Lanes lanes, OutgoingRays& outgoing);
   /// Adds the next rays of the paths in the given lanes.
@@ -64,7 +68,8 @@ class VertexQueue {
   int count_ = 0;
   HitPointLanes left_{};
   LaneNumbers ids_{}, on_mesh_{}, slots_{}, channels_{}, below_channels_{};
-  LaneFloats widths_{}, spreads_{}, absorptions_[3]{}, below_absorptions_[3]{};
+  LaneNumbers media_{}, below_media_{}, scatterings_{};
+  LaneFloats widths_{}, spreads_{};
   Lighting::Choices choices_{};
   LightSamples<kShadingLanes> lights_{};
   NormalLanes points_{};

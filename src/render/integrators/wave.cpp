@@ -3,7 +3,6 @@
 #include "render/bsdf/frame.hpp"
 #include "render/bsdf/put_surface.hpp"
 #include "render/kernels/dispatch.hpp"
-#include "render/shading/beer_lambert.hpp"
 #include "render/shading/footprint.hpp"
 
 #include <algorithm>
@@ -46,6 +45,7 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
   step_ = {.sample_width = 1 / std::sqrt(static_cast<float>(world.samples))};
   vertices_.begin(*lighting_);
   tracer_.begin(world.bvh);
+  media_.clear();
   count_ = rays.size();
   PathColumns& paths = *paths_;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -61,10 +61,9 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
     colors_[i] = Vec3(0);
     alphas_[i] = 0;
   }
-  for (int c = 0; c < 3; ++c) {
-    std::fill_n(paths.throughput[c], count_, 1.0F);
-    std::fill_n(paths.absorption[c], count_, 0.0F);
-  }
+  for (auto& throughput : paths.throughput) std::fill_n(throughput, count_, 1.0F);
+  for (auto* numbers : {paths.media, paths.scatterings, paths.is_scattered})
+    std::fill_n(numbers, count_, 0U);
   std::fill_n(paths.pdf, count_, 0.0F);
 }
 
@@ -108,7 +107,9 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
 }
 
 void Wave::step() {
-  OutgoingRays outgoing{.tracer = tracer_, .shadows = shadow_rays_, .paths = *next_paths_};
+  OutgoingRays outgoing{
+      .tracer = tracer_, .shadows = shadow_rays_, .media = media_, .paths = *next_paths_};
+  outgoing_ = &outgoing;
   for (std::size_t first = 0; first < count_; first += kShadingLanes) {
     step(first);
     vertices_.add(step_, *paths_, first, outgoing);
@@ -128,8 +129,11 @@ void Wave::step(std::size_t first) {
   hits.hit = 0;
   for (std::size_t lane = 0; lane < size; ++lane)
     hits.hit |= Lanes{ids[lane] != kNoPrimitive} << lane;
-  for (Lanes missed = ((Lanes{1} << size) - 1) & ~hits.hit; missed != 0; missed &= missed - 1)
-    escape(first + static_cast<std::size_t>(std::countr_zero(missed)));
+  for (Lanes missed = ((Lanes{1} << size) - 1) & ~hits.hit; missed != 0; missed &= missed - 1) {
+    const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(missed));
+    left_bodies_.clear();
+    if (paths_->media[i] == 0 || cross_medium(i, paths_->ray(i), std::nullopt, 0)) escape(i);
+  }
   group.vertices = group.mapped = 0;
   if (hits.hit == 0) return;
   for (int axis = 0; axis < 3; ++axis) {
@@ -155,7 +159,6 @@ void Wave::widen(std::size_t first) {
 }
 
 Lanes Wave::add_simple(std::size_t first) {
-  if (step_.depth >= options_.max_depth) return 0;
   VertexGroup& group = vertices_.group();
   const PathColumns& paths = *paths_;
   const HitLanes& hits = group.hits.lanes;
@@ -169,7 +172,7 @@ Lanes Wave::add_simple(std::size_t first) {
     if (!look.is_simple || !group.hits.meshes[k]->colors.empty() ||
         (is_front ? looks_behind && look.has_open_back && may_get_light(first + k)
                   : !look.has_back) ||
-        vector_of(paths.absorption, first + k) != Vec3(0))
+        paths.media[first + k] != 0 || is_last(first + k))
       continue;
     simple |= Lanes{1} << lane;
     group.side[lane] = is_front ? 1.0F : -1.0F;
@@ -186,7 +189,7 @@ Lanes Wave::add_simple(std::size_t first) {
     group.on_mesh[lane] = 1;
     group.normals.is_mapped[lane] = group.coat_normals.is_mapped[lane] = 0;
     for (auto& weights : group.through_weight) weights[lane] = 1;
-    for (int c = 0; c < 3; ++c) group.absorption[c][lane] = 0;
+    group.media[lane] = 0;
     group.channel[lane] = paths.channel[i];
   }
   if (step_.depth == 1) {
@@ -208,34 +211,32 @@ void Wave::step_slowly(std::size_t first, int lane) {
   const HitGroup& hits = vertices_.group().hits;
   const Ray ray = paths.ray(i);
   const bool from_camera = paths.pdf[i] == 0;
-  // The parameter t is needed only where find_points() is not sure.
-  const bool is_sure = (hits.sure >> lane & 1U) != 0;
+  // The parameter t is needed only where find_points() is not sure, and in media.
+  const bool is_sure = (hits.sure >> lane & 1U) != 0 && paths.media[i] == 0;
   std::optional<Hit> hit = from_camera ? *camera_hits_[i]
                            : is_sure   ? Hit{.id = hits_[i], .t = 0}
                                        : tracer_.hit(ray, hits_[i]);
   ShadingPoint point = shading_->point(hits, lane, ray, *hit);
   prepare(i, point);
   std::uint32_t layer = 0;
-  for (; hit && !stops(i, point, layer); ++layer) hit = next(i, *hit, point);
+  left_bodies_.clear();
+  for (; hit && (passes_hidden_surface(i, point) || !stops(i, point, layer)); ++layer)
+    hit = next(i, *hit, point);
+  if (paths.media[i] != 0 && !cross_medium(i, ray, hit, point.at.distance)) return;
   if (!hit) return escape(i);
   if (looks_behind() && Shading::lets_light_in(point) && (layer > 0 || may_get_light(i))) {
     const Behind behind = look_behind(i, *hit, point, layer);
     if (behind.is_open) return escape(i);
     if (behind.hit) hit = behind.hit, point = behind.point;
   }
-  if (const Vec3 absorption = vector_of(paths.absorption, i); absorption != Vec3(0)) {
-    put_vector(paths.throughput, i,
-               vector_of(paths.throughput, i) * beer_lambert(absorption, point.at.distance));
-  }
   if (from_camera) alphas_[paths.slot[i]] = 1;
   add_emission(i, *hit, point);
-  if (step_.depth < options_.max_depth && !point.look->material->unlit)
-    put_vertex(i, lane, *hit, point);
+  if (!is_last(i) && !point.look->material->unlit) put_vertex(i, lane, *hit, point);
 }
 
 int Wave::channel_of(const Material& material, std::size_t i) const {
   const auto channel = static_cast<int>(paths_->channel[i]);
-  if (channel < 3 || material.dispersion == 0 || !encloses_medium(material)) return channel;
+  if (channel < 3 || material.dispersion == 0 || !refracts(material)) return channel;
   const float u = paths_->sobol(i).pair(step_.pair(sampling::kLightChoicePair)).y;
   return std::min(static_cast<int>(3 * u), 2);
 }
@@ -245,7 +246,9 @@ void Wave::put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoin
   const auto k = static_cast<std::size_t>(lane);
   const Material& material = *point.look->material;
   const int channel = channel_of(material, i);
-  const BsdfInput& input = shading_->bsdf_input(point, channel, varying_);
+  const Beyond beyond =
+      media_.cross(Shading::enclosed_medium(point), point.at.front, media_.at(paths_->media[i]));
+  const BsdfInput& input = shading_->bsdf_input(point, channel, beyond.outside, varying_);
   group.vertices |= Lanes{1} << lane;
   group.features[k] = input.features;
   group.id[lane] = hit.id;
@@ -263,8 +266,7 @@ void Wave::put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoin
   }
   put(group.through_weight, lane, through);
   group.channel[lane] = static_cast<std::uint32_t>(channel);
-  put(group.absorption, lane,
-      encloses_medium(material) ? shading_->absorption(point) : vector_of(paths_->absorption, i));
+  group.media[lane] = NestedMediaTable::number_of(beyond.media);
 }
 
 }  // namespace microtrace

@@ -8,6 +8,7 @@
 #include "render/integrators/vertex_queue.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/lights/lighting.hpp"
+#include "render/media/nested_media.hpp"
 #include "render/shading/shading.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -20,6 +21,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace microtrace {
 
@@ -52,6 +54,13 @@ class Wave {
   [[nodiscard]] Lanes add_simple(std::size_t first);
   /// Advances the path in a lane, which needs further tests.
   void step_slowly(std::size_t first, int lane);
+  /// Moves path i through its medium along its ray. Returns true if the path reaches the hit. If it
+  /// is scattered before, adds its next ray.
+  [[nodiscard]] bool cross_medium(std::size_t i, const Ray& ray, const std::optional<Hit>& hit,
+                                  float distance);
+  /// True if path i passes through the surface of a body without noticing it, because it is in
+  /// another body that overlaps this one. Remembers the surface until the path moves.
+  [[nodiscard]] bool passes_hidden_surface(std::size_t i, const ShadingPoint& point);
   /// Sets the vertex of a lane.
   void put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoint& point);
 
@@ -96,6 +105,10 @@ class Wave {
     return !knows_blocked() || blockers_[i] == kNoPrimitive || lighting_->has_surfaces() ||
            !shading_->is_opaque(blockers_[i]);
   }
+  /// True if path i has its maximum length.
+  [[nodiscard]] bool is_last(std::size_t i) const {
+    return step_.depth - paths_->scatterings[i] >= options_.max_depth;
+  }
   /// True if paths look behind the fronts of one-sided surfaces.
   [[nodiscard]] bool looks_behind() const {
     return step_.depth > 1 && options_.backfaces == Backfaces::pass && lighting_->may_surround();
@@ -111,6 +124,14 @@ class Wave {
   VertexQueues vertices_;
   RayTracer tracer_;
   ShadowRays shadow_rays_;
+  NestedMediaTable media_;
+  OutgoingRays* outgoing_ = nullptr;  // during a bounce
+  /// A body that the current ray leaves through a hidden surface, and the distance of the surface.
+  struct LeftBody {
+    float distance;
+    const Medium* medium;
+  };
+  std::vector<LeftBody> left_bodies_;
   std::optional<float> ground_;
   GroundShadows ground_shadows_;
   const ShadingKernels* kernels_;

@@ -1,6 +1,7 @@
 /// What the paths of a wavefront meet behind surfaces that let them or light through.
 
 #include "render/integrators/wave.hpp"
+#include "render/media/medium_event.hpp"
 
 namespace microtrace {
 
@@ -58,6 +59,55 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
   }
   if (!point.look->shines() || shading_->emission(point) == Vec3(0)) return {};
   return {.hit = hit, .point = point};
+}
+
+bool Wave::passes_hidden_surface(std::size_t i, const ShadingPoint& point) {
+  const NestedMedia* here = media_.at(paths_->media[i]);
+  if (here == nullptr) return false;
+  const Medium* own = Shading::enclosed_medium(point);
+  if (!NestedMediaTable::is_hidden(own, point.at.front, here)) return false;
+  left_bodies_.push_back({.distance = point.at.distance, .medium = own});
+  return true;
+}
+
+bool Wave::cross_medium(std::size_t i, const Ray& ray, const std::optional<Hit>& hit,
+                        float distance) {
+  PathColumns& paths = *paths_;
+  const NestedMedia* media = media_.at(paths.media[i]);
+  MediumPath path{.sobol = paths.sobol(i),
+                  .throughput = vector_of(paths.throughput, i),
+                  .pdf = paths.pdf[i],
+                  .begin = paths.begin[i],
+                  .spread = paths.spread[i],
+                  .scatterings = paths.scatterings[i]};
+  const MediumEvent event =
+      microtrace::cross_medium(world_->bvh, step_, ray, hit, distance, *media->medium, path);
+  put_vector(paths.throughput, i, path.throughput);
+  for (const LeftBody& body : left_bodies_) {
+    if (event.arrives || body.distance < event.distance)
+      media = media_.without(media, *body.medium);
+  }
+  paths.media[i] = NestedMediaTable::number_of(media);
+  if (!event.scattered) return event.arrives;
+  PathColumns& next = *next_paths_;
+  const std::size_t k = outgoing_->count++;
+  put_vector(next.o, k, event.scattered->o);
+  put_vector(next.d, k, event.scattered->d);
+  next.left[k] = kNoPrimitive;
+  next.key[k] = paths.key[i];
+  next.index[k] = paths.index[i];
+  next.slot[k] = paths.slot[i];
+  put_vector(next.throughput, k, path.throughput);
+  next.pdf[k] = path.pdf;
+  put_vector(next.from_p, k, vector_of(paths.from_p, i));
+  put_vector(next.from_n, k, vector_of(paths.from_n, i));
+  next.media[k] = paths.media[i];
+  next.scatterings[k] = path.scatterings;
+  next.is_scattered[k] = 1;
+  next.channel[k] = paths.channel[i];
+  next.begin[k] = path.begin;
+  next.spread[k] = path.spread;
+  return false;
 }
 
 }  // namespace microtrace

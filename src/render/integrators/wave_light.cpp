@@ -14,7 +14,7 @@ void Wave::add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point
   if (emission == Vec3(0)) return;
   const PathColumns& paths = *paths_;
   float weight = 1;
-  if (const float pdf = paths.pdf[i]; pdf > 0) {
+  if (const float pdf = paths.pdf[i]; pdf > 0 && paths.is_scattered[i] == 0) {
     const float cosine = std::abs(glm::dot(unit<1>(vector_of(paths.d, i)), point.at.n));
     weight = power_heuristic(
         pdf, lighting_->emitter_pdf(hit.id, paths.from(i), point.at.distance, cosine));
@@ -28,8 +28,8 @@ void Wave::escape(std::size_t i) {
   const std::uint32_t slot = paths.slot[i];
   if (const float pdf = paths.pdf[i]; pdf > 0) {
     const EnvironmentLight::Lookup light = lighting_->environment(paths.from(i), wi);
-    colors_[slot] +=
-        vector_of(paths.throughput, i) * light.radiance * power_heuristic(pdf, light.pdf);
+    const float other = paths.is_scattered[i] != 0 ? 0 : light.pdf;
+    colors_[slot] += vector_of(paths.throughput, i) * light.radiance * power_heuristic(pdf, other);
   } else if (lighting_->is_seen()) {  // otherwise the background is composited later
     colors_[slot] += vector_of(paths.throughput, i) * lighting_->environment(wi);
     alphas_[slot] = 1;

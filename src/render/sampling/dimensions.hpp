@@ -1,6 +1,6 @@
 #pragma once
 /// Numbers of the pairs of random numbers of a sample. Changing the number of a pair changes every
-/// path-traced picture. Pairs above 2^31 + 1 are unused and available for other purposes.
+/// path-traced picture. Pairs above 2^31 + 2^30 are unused and available for other purposes.
 
 #include <cstdint>
 
@@ -20,5 +20,8 @@ inline constexpr std::uint32_t kLightChoicePair = 3;  ///< selection of the ligh
 /// uses a pair kLayerPairs later.
 inline constexpr std::uint32_t kCoveragePair = 4;
 inline constexpr std::uint32_t kLayerPairs = 1U << 16U;
+/// Distance and color channel of a flight through a scattering medium. Each further segment of a
+/// path uses the next pair. The direction after scattering has the direction pair of a vertex.
+inline constexpr std::uint32_t kFirstFlightPair = kShutterPair + 1;
 
 }  // namespace microtrace::sampling

@@ -23,6 +23,14 @@ float head_on_reflectance(float ior) {
   return r * r;
 }
 
+/// The reflectance of the boundary between two media. Schlick's term approaches 1 at the horizon
+/// for any indices of refraction. Between nearly equal indices, which reflect hardly anything at
+/// nearly all angles, it is reduced in proportion to the reflectance at normal incidence.
+bsdf::Schlick<1> reflectance_between(const Medium& inside, const Medium& outside) {
+  const float f0 = head_on_reflectance(inside.ior / outside.ior);
+  return {.f0 = Vec3(f0), .f90 = std::min(50 * f0, 1.0F)};
+}
+
 /// True if light passes the back regardless of options. A path that enters and leaves one-sided
 /// thin glass crosses one wall instead of two, just as camera rays do.
 bool is_thin_glass(const Material& m) {
@@ -31,12 +39,6 @@ bool is_thin_glass(const Material& m) {
 
 bool is_missing_back(const ShadingPoint& point) {
   return !point.at.front && !has_back(*point.look->material);
-}
-
-/// The index of refraction for red, green or blue according to KHR_materials_dispersion.
-float dispersed(float ior, float dispersion, int channel) {
-  const float half_spread = (ior - 1) * 0.025F * dispersion;
-  return std::max(ior + static_cast<float>(channel - 1) * half_spread, 1.0F);
 }
 
 }  // namespace
@@ -57,7 +59,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
     if (is_textured || material.anisotropy || encloses_medium(material)) return;
     const ShadingPoint anywhere{.at = {}, .look = &look};
-    look.constant.emplace(parameters(anywhere, 3), layers(anywhere));
+    look.constant.emplace(parameters(anywhere, 3, nullptr), layers(anywhere));
     look.is_simple = material.alpha_mode == AlphaMode::opaque && !material.unlit && !look.shines();
   };
   for (const Material& material : scene.materials) add(material);
@@ -142,7 +144,8 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
          glm::min(color, Vec3(kBrightest)) * Vec3(look[MaterialTexture::emissive].at(point));
 }
 
-bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) {
+bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel,
+                                     const Medium* outside) {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
   bsdf::Parameters p{.base_color = glm::clamp(Vec3(base_color(point)), Vec3(0), Vec3(1)),
@@ -154,11 +157,12 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) {
     p.metallic *= t.z;
   }
   if (m.ior != 1.5F) p.dielectric.f0 = Vec3(head_on_reflectance(m.ior));
+  if (outside != nullptr && refracts(m)) p.dielectric = reflectance_between(look.medium, *outside);
   if (const auto& s = m.specular) {
     const float factor = s->factor * look[MaterialTexture::specular].at(point).w;
     const Vec3 color = s->color * Vec3(look[MaterialTexture::specular_color].at(point));
     p.dielectric.f0 = glm::min(p.dielectric.f0 * color, Vec3(1)) * factor;
-    p.dielectric.f90 = factor;
+    p.dielectric.f90 *= factor;
   }
   if (const auto& archived = m.specular_glossiness) {
     const Vec4 t = look[MaterialTexture::specular_glossiness].at(point);
@@ -169,9 +173,9 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) {
   if (m.anisotropy) add_anisotropy(point, p);
   if (const auto& t = m.transmission) {
     p.transmission = t->factor * look[MaterialTexture::transmission].at(point).x;
-    if (encloses_medium(m)) {
-      float ior = m.ior == 0 ? 1e6F : m.ior;
-      if (channel < 3) ior = dispersed(ior, m.dispersion, channel);
+    if (refracts(m)) {
+      float ior = look.medium.ior_of(channel);
+      if (outside != nullptr) ior /= outside->ior_of(channel);
       p.eta = point.at.front ? ior : 1 / ior;
     }
   }
@@ -189,12 +193,6 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) {
         d->color * Vec3(look[MaterialTexture::diffuse_transmission_color].at(point));
   }
   return p;
-}
-
-Vec3 Shading::absorption(const ShadingPoint& point) const {
-  const Material& m = *point.look->material;
-  if (!point.at.front || !encloses_medium(m)) return Vec3(0);
-  return point.look->absorption;
 }
 
 }  // namespace microtrace

@@ -3,6 +3,7 @@
 
 #include "render/bsdf/parameters.hpp"
 #include "render/kernels/kernel.hpp"
+#include "render/media/medium.hpp"
 #include "render/shading/surface_point.hpp"
 #include "render/textures/texture_map.hpp"
 #include "scene/material_textures.hpp"
@@ -62,7 +63,7 @@ struct TexturedMaterial {
   /// The slot whose texel address is reused by every slot with shares_address. Often these are all
   /// slots.
   TextureSlot layout{};
-  Vec3 absorption{0};  ///< absorption of the enclosed medium, in powers of two per length
+  Medium medium{};  ///< the enclosed medium, if encloses_medium()
   /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
   bool has_constant_emission = false;
   bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
@@ -92,11 +93,6 @@ struct ShadingPoint {
   /// The texel address that slots share, if it has been computed.
   std::optional<TextureMap::TexelAddress> texel_address{};
 };
-
-/// True if the surface encloses a medium, so that light is refracted (KHR_materials_volume).
-[[nodiscard]] inline bool encloses_medium(const Material& m) {
-  return m.transmission && m.volume && m.volume->thickness > 0;
-}
 
 /// True if the back of the material is visible, from behind or from inside its medium.
 [[nodiscard]] inline bool has_back(const Material& m) {
@@ -172,17 +168,19 @@ class Shading {
 
   /// Returns the BSDF's input on the ray's side. Unless it is constant, it is computed and stored
   /// in `varying`. `channel` is the color channel of a path through dispersive media, 0 to 2; 3 for
-  /// all channels.
+  /// all channels. `outside` is the medium around a body that encloses a medium; null for a vacuum.
   [[nodiscard]] const BsdfInput& bsdf_input(const ShadingPoint& point, int channel,
+                                            const Medium* outside,
                                             std::optional<BsdfInput>& varying) const {
     const bool has_colors = point.at.mesh != nullptr && !point.at.mesh->colors.empty();
     if (point.look->constant && !has_colors) return *point.look->constant;
-    return varying.emplace(parameters(point, channel), layers(point));
+    return varying.emplace(parameters(point, channel, outside), layers(point));
   }
 
-  /// The absorption of the medium below the surface, in powers of two per length; 0 if there is
-  /// none.
-  [[nodiscard]] Vec3 absorption(const ShadingPoint& point) const;
+  /// The medium that the surface encloses; null if there is none.
+  [[nodiscard]] static const Medium* enclosed_medium(const ShadingPoint& point) {
+    return encloses_medium(*point.look->material) ? &point.look->medium : nullptr;
+  }
 
  private:
   struct Entry {
@@ -191,7 +189,8 @@ class Shading {
     std::uint32_t look;
   };
 
-  [[nodiscard]] static bsdf::Parameters parameters(const ShadingPoint& point, int channel);
+  [[nodiscard]] static bsdf::Parameters parameters(const ShadingPoint& point, int channel,
+                                                   const Medium* outside);
   [[nodiscard]] static bsdf::Layers layers(const ShadingPoint& point);
   [[nodiscard]] static Vec4 base_color(const ShadingPoint& point);
   void find_open_fronts();

@@ -1,8 +1,5 @@
 #include "render/shading/texture_slots.hpp"
 
-#include "scene/math/exponential.hpp"
-
-#include <algorithm>
 #include <cmath>
 
 namespace microtrace {
@@ -32,28 +29,13 @@ TextureSlot TextureMaps::slot(const TextureUse& use, ColorEncoding encoding) {
   return {.map = &known->second, .use = &use};
 }
 
-namespace {
-
-/// The absorption coefficients of a volume. By the Beer-Lambert law, the transmittance after a
-/// length l is color^(l / distance).
-Vec3 absorption_of(const Volume& volume) {
-  Vec3 result(0);
-  for (int c = 0; c < 3; ++c) {
-    const double left = std::clamp<double>(volume.attenuation_color[c], 0x1p-30, 1);
-    result[c] = static_cast<float>(-binary_logarithm(left) / volume.attenuation_distance);
-  }
-  return result;
-}
-
-}  // namespace
-
 TexturedMaterial TextureMaps::slots(const Material& m) {
   TexturedMaterial look{.material = &m};
   for_each_named_texture(
       m, [&](MaterialTexture texture, const TextureUse& use, ColorEncoding encoding) {
         if (affects_light(m, texture)) look[texture] = slot(use, encoding);
       });
-  if (encloses_medium(m)) look.absorption = absorption_of(*m.volume);
+  if (encloses_medium(m)) look.medium = medium_of(m);
   for (const MaterialTexture texture : TexturedMaterial::kFrequent) {
     TextureSlot& slot = look[texture];
     if (slot.map == nullptr) continue;

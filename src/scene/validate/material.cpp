@@ -25,6 +25,10 @@ Rule check(const Volume& v) {
                        : broken_rule("volume/attenuation_distance", "must be positive"),
                    fraction("volume/attenuation_color", v.attenuation_color)});
 }
+Rule check(const VolumeScatter& v) {
+  return first_of({fraction("volume_scatter/multiscatter_color", v.multiscatter_color),
+                   in_range("volume_scatter/anisotropy", v.anisotropy, -1, 1)});
+}
 Rule check(const Clearcoat& c) {
   return first_of({fraction("clearcoat/factor", c.factor),
                    fraction("clearcoat/roughness", c.roughness),
@@ -66,9 +70,9 @@ Rule validate(const Material& m) {
        in_range("normal_scale", m.normal_scale, -1e6, 1e6),
        fraction("occlusion_strength", m.occlusion_strength), at_least("emissive", m.emissive, 0),
        m.ior == 0 ? Rule{} : at_least("ior", m.ior, 1), at_least("dispersion", m.dispersion, 0),
-       check(m.specular), check(m.transmission), check(m.volume), check(m.clearcoat),
-       check(m.sheen), check(m.anisotropy), check(m.iridescence), check(m.diffuse_transmission),
-       check(m.specular_glossiness)});
+       check(m.specular), check(m.transmission), check(m.volume), check(m.volume_scatter),
+       check(m.clearcoat), check(m.sheen), check(m.anisotropy), check(m.iridescence),
+       check(m.diffuse_transmission), check(m.specular_glossiness)});
 }
 
 }  // namespace microtrace

@@ -170,9 +170,12 @@ Json numbers_of(const Extension& extension) {
 }
 
 TEST(GltfExtensions, OfMaterialsAreDrawn) {
-  // Some extensions affect only refraction.
+  // Some extensions affect only refraction or media that attenuate light.
   const Objects glass = {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
-                         {"KHR_materials_volume", {{"thicknessFactor", 1}}}};
+                         {"KHR_materials_volume",
+                          {{"thicknessFactor", 1},
+                           {"attenuationDistance", 0.5},
+                           {"attenuationColor", {0.5, 0.75, 0.25}}}}};
   for (const Extension* extension : extensions_of_materials()) {
     const std::string name(extension->name);
     const Json numbers = numbers_of(*extension);

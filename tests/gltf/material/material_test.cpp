@@ -55,6 +55,8 @@ constexpr const char* kEverything = R"({
     "KHR_materials_volume": {
       "thicknessFactor": 3, "thicknessTexture": {"index": 8},
       "attenuationDistance": 0.5, "attenuationColor": [0.25, 0.5, 1]},
+    "KHR_materials_volume_scatter": {
+      "multiscatterColor": [0.75, 0.625, 0.5], "scatterAnisotropy": -0.25},
     "KHR_materials_clearcoat": {
       "clearcoatFactor": 0.625, "clearcoatTexture": {"index": 9},
       "clearcoatRoughnessFactor": 0.375, "clearcoatRoughnessTexture": {"index": 10},
@@ -83,8 +85,8 @@ TEST(GltfMaterial, ExtensionsAreReadWithoutAWarning) {
   EXPECT_EQ(m.emissive, Vec3(2, 4, 8));
   EXPECT_EQ(m.ior, 1.75F);
   EXPECT_EQ(m.dispersion, 0.375F);
-  ASSERT_TRUE(m.specular && m.transmission && m.volume && m.clearcoat && m.sheen && m.anisotropy &&
-              m.iridescence && m.diffuse_transmission);
+  ASSERT_TRUE(m.specular && m.transmission && m.volume && m.volume_scatter && m.clearcoat &&
+              m.sheen && m.anisotropy && m.iridescence && m.diffuse_transmission);
   EXPECT_FALSE(m.specular_glossiness);
   EXPECT_EQ(m.specular->factor, 0.125F);
   EXPECT_EQ(index_of(m.specular->texture), 5U);
@@ -96,6 +98,8 @@ TEST(GltfMaterial, ExtensionsAreReadWithoutAWarning) {
   EXPECT_EQ(index_of(m.volume->texture), 8U);
   EXPECT_EQ(m.volume->attenuation_distance, 0.5F);
   EXPECT_EQ(m.volume->attenuation_color, Vec3(0.25F, 0.5F, 1));
+  EXPECT_EQ(m.volume_scatter->multiscatter_color, Vec3(0.75F, 0.625F, 0.5F));
+  EXPECT_EQ(m.volume_scatter->anisotropy, -0.25F);
   EXPECT_EQ(m.clearcoat->factor, 0.625F);
   EXPECT_EQ(index_of(m.clearcoat->texture), 9U);
   EXPECT_EQ(m.clearcoat->roughness, 0.375F);
@@ -126,6 +130,7 @@ TEST(GltfMaterial, ExtensionsHaveTheDefaultsOfTheirSpecifications) {
     "KHR_materials_emissive_strength": {}, "KHR_materials_ior": {}, "KHR_materials_dispersion": {},
     "KHR_materials_specular": {},
     "KHR_materials_volume": {"thicknessFactor": 1},
+    "KHR_materials_volume_scatter": {"multiscatterColor": [1, 0, 0]},
     "KHR_materials_clearcoat": {"clearcoatFactor": 1},
     "KHR_materials_sheen": {"sheenColorFactor": [0, 0, 1]},
     "KHR_materials_anisotropy": {"anisotropyStrength": 1},
@@ -138,6 +143,7 @@ TEST(GltfMaterial, ExtensionsHaveTheDefaultsOfTheirSpecifications) {
   EXPECT_EQ(m.specular.value().color, Vec3(1));
   EXPECT_EQ(m.volume.value().attenuation_distance, std::numeric_limits<float>::infinity());
   EXPECT_EQ(m.volume.value().attenuation_color, Vec3(1));
+  EXPECT_EQ(m.volume_scatter.value().anisotropy, 0);
   EXPECT_EQ(m.clearcoat.value().roughness, 0);
   EXPECT_EQ(m.clearcoat.value().normal_scale, 1);
   EXPECT_EQ(m.sheen.value().roughness, 0);
@@ -153,13 +159,14 @@ TEST(GltfMaterial, ExtensionsWithoutEffectAreLeftOut) {
   const Material m = material(R"({"extensions": {
     "KHR_materials_transmission": {"transmissionTexture": {"index": 0}},
     "KHR_materials_volume": {"attenuationDistance": 1, "thicknessTexture": {"index": 0}},
+    "KHR_materials_volume_scatter": {"scatterAnisotropy": 0.5},
     "KHR_materials_clearcoat": {"clearcoatRoughnessFactor": 1},
     "KHR_materials_sheen": {"sheenRoughnessFactor": 1},
     "KHR_materials_anisotropy": {"anisotropyTexture": {"index": 0}},
     "KHR_materials_iridescence": {"iridescenceThicknessTexture": {"index": 0}},
     "KHR_materials_diffuse_transmission": {"diffuseTransmissionColorFactor": [1, 0, 0]}}})");
-  EXPECT_FALSE(m.transmission || m.volume || m.clearcoat || m.sheen || m.anisotropy ||
-               m.iridescence || m.diffuse_transmission);
+  EXPECT_FALSE(m.transmission || m.volume || m.volume_scatter || m.clearcoat || m.sheen ||
+               m.anisotropy || m.iridescence || m.diffuse_transmission);
 }
 
 TEST(GltfMaterial, NumbersStayFiniteAndPositive) {
@@ -307,6 +314,7 @@ TEST(GltfMaterial, NumbersOutOfRangeAreClamped) {
       "KHR_materials_transmission": {"transmissionFactor": 2},
       "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0,
                                "attenuationColor": [2, 1, 0]},
+      "KHR_materials_volume_scatter": {"multiscatterColor": [1, 2, 0], "scatterAnisotropy": -2},
       "KHR_materials_clearcoat": {"clearcoatFactor": 2, "clearcoatRoughnessFactor": -1},
       "KHR_materials_sheen": {"sheenColorFactor": [2, 0, 0], "sheenRoughnessFactor": 3},
       "KHR_materials_anisotropy": {"anisotropyStrength": 1.1},
@@ -329,6 +337,8 @@ TEST(GltfMaterial, NumbersOutOfRangeAreClamped) {
   EXPECT_EQ(m.transmission.value().factor, 1);
   EXPECT_EQ(m.volume.value().attenuation_distance, Volume().attenuation_distance);
   EXPECT_EQ(m.volume.value().attenuation_color, Vec3(1, 1, 0));
+  EXPECT_EQ(m.volume_scatter.value().multiscatter_color, Vec3(1, 1, 0));
+  EXPECT_EQ(m.volume_scatter.value().anisotropy, -1);
   EXPECT_EQ(m.clearcoat.value().factor, 1);
   EXPECT_EQ(m.clearcoat.value().roughness, 0);
   EXPECT_EQ(m.sheen.value().color, Vec3(1, 0, 0));
@@ -342,7 +352,7 @@ TEST(GltfMaterial, NumbersOutOfRangeAreClamped) {
     if (warning.severity == Severity::error && warning.pointer.starts_with("/materials/0/"))
       ++errors;
   }
-  EXPECT_EQ(errors, 14U);  // each message is reported once
+  EXPECT_EQ(errors, 15U);  // each message is reported once
   EXPECT_EQ(material(R"({"extensions": {"KHR_materials_ior": {"ior": -1}}})").ior, 1.5F);
 }
 
@@ -354,6 +364,8 @@ TEST(GltfMaterial, WrongTypesAndLengthsAreRefused) {
   };
   for (const Case& c : {
            Case{"volume", R"({"attenuationColor": [1, 1]})", "attenuationColor"},
+           Case{"volume_scatter", R"({"multiscatterColor": [1, 1]})", "multiscatterColor"},
+           Case{"volume_scatter", R"({"scatterAnisotropy": [0.5]})", "scatterAnisotropy"},
            Case{"clearcoat", R"({"clearcoatNormalTexture": {"index": 99}})",
                 "clearcoatNormalTexture/index"},
            Case{"sheen", R"({"sheenRoughnessFactor": "1"})", "sheenRoughnessFactor"},

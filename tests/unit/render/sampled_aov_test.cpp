@@ -156,6 +156,23 @@ TEST(Features, GlassShowsWhatIsBehindAndReflected) {
   expect_near(vector_at(film, 3), {0, 0, 1 - 2 * share});
 }
 
+// The front wall in a medium that begins at z = -2 and scatters light before it reaches the wall.
+TEST(Features, ScatteringMediaShowTheirColor) {
+  Scene scene = two_walls();
+  Material medium{.roughness = 0};
+  medium.transmission = Transmission{.factor = 1};
+  medium.volume = Volume{.thickness = 1, .attenuation_distance = 3};
+  medium.volume->attenuation_color = {0.5F, 0.2F, 0.1F};
+  medium.volume_scatter = VolumeScatter{.multiscatter_color = {0.9F, 0.8F, 0.3F}};
+  scene.materials.push_back(medium);
+  scene.objects.push_back(
+      {.name = "surface", .shape = Plane{{0, 0, -2}, {0, 0, 1}}, .material = 2});
+  const Vec3 left = medium.volume->attenuation_color;
+  const Film film = seen_features(scene, {});
+  expect_near(vector_at(film, 0), left * kFront + (Vec3(1) - left) * Vec3(0.9F, 0.8F, 0.3F));
+  expect_near(vector_at(film, 3), {0, 0, 1});
+}
+
 TEST(Features, RefractionBendsRays) {
   // From the left half of a glass ball, the camera sees the right wall.
   Scene scene;

@@ -8,7 +8,7 @@
 #include <numbers>
 
 // Each material extension has three parts: rules from the JSON schema that the Khronos Group has
-// ratified, a reader, and a row in the list below.
+// ratified (KHR_materials_volume_scatter: drafted), a reader, and a row in the list below.
 
 namespace microtrace::io::gltf {
 namespace {
@@ -145,6 +145,17 @@ Volume volume(const JsonValue& json) {
   return result;
 }
 
+constexpr Rule kVolumeScatterRules[] = {color("multiscatterColor"),
+                                        {.key = "scatterAnisotropy",
+                                         .form = Form::number,
+                                         .min = -1,
+                                         .max = 1,
+                                         .repair = Repair::clamp}};
+VolumeScatter volume_scatter(const JsonValue& json) {
+  return {.multiscatter_color = vector(json, "multiscatterColor", Vec3(0)),
+          .anisotropy = number(json, "scatterAnisotropy", 0)};
+}
+
 /// Reads an optional layer of the material.
 template <auto layer, auto read>
 void read_layer(const JsonValue& json, Material& material) {
@@ -179,6 +190,8 @@ constexpr Extension kList[] = {
         read_layer<&Material::transmission, transmission>),
     row("KHR_materials_unlit", {}, read_unlit),
     row("KHR_materials_volume", kVolumeRules, read_layer<&Material::volume, volume>),
+    row("KHR_materials_volume_scatter", kVolumeScatterRules,
+        read_layer<&Material::volume_scatter, volume_scatter>),
 };
 
 }  // namespace

@@ -50,6 +50,8 @@ void leave_out_unused_layers(Material& material) {
   leave_out(material.iridescence, factor);
   leave_out(material.diffuse_transmission, factor);
   leave_out(material.volume, [](const Volume& volume) { return volume.thickness; });
+  if (material.volume_scatter && material.volume_scatter->multiscatter_color == Vec3(0))
+    material.volume_scatter.reset();
   leave_out(material.anisotropy, [](const Anisotropy& layer) { return layer.strength; });
   if (material.sheen && material.sheen->color == Vec3(0)) material.sheen.reset();
 }
