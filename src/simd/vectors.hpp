@@ -20,12 +20,6 @@ inline Float<N> load(const float* p) {
 }
 
 template <int N>
-inline Double<N> load_doubles(const double* p) {
-  Double<N> v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-template <int N>
 inline Unsigned<N> load_bits(const std::uint32_t* p) {
   Unsigned<N> v;
   __builtin_memcpy(&v, p, sizeof v);

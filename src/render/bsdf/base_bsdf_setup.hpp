@@ -135,7 +135,7 @@ auto BaseBsdf<N, Parts>::add_film(const Schlick<N>& schlick) -> V {
     const V head_on = greatest_components(V((f - edge) / (1 - edge)), all3<N>(0));
     if (k < kOfMean) mean += head_on * all<N>(1.0F / kOfMean);
     const F greatest = greatest_component(head_on) + kMargin;
-    bound = (k < kOfMean) | is_mixed ? larger_of(bound, greatest) : bound;
+    bound = ((k < kOfMean) | is_mixed) ? larger_of(bound, greatest) : bound;
   }
   greatest_.f0 += film_.share * (smaller_of(bound, all<N>(1)) - greatest_.f0);
   greatest_.f90 += film_.share * (1 - greatest_.f90);

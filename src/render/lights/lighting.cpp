@@ -47,7 +47,8 @@ float Lighting::pdf(const EnvironmentGuide::Cell* cell, const Vec3& wi, float ow
 
 void Lighting::sample_environment(int count, const Choices& all_choices,
                                   LightSamples<kShadingLanes>& samples) const {
-  const auto& [choices, triangles] = all_choices;
+  const LightChoices<kShadingLanes>& choices = all_choices.points;
+  const TriangleChoices<kShadingLanes>& triangles = all_choices.triangles;
   const auto set = [&](int lane, const EnvironmentGuide::Cell* own_cell, const Vec3& wi,
                        const Vec3& radiance, float own_pdf) {
     const float all = pdf(own_cell, wi, own_pdf) * choices.probability[lane];

@@ -82,7 +82,7 @@ TEST(Framing, RandomPointsFillOneAxis) {
     std::vector<Vec3> points(static_cast<std::size_t>(3 + i % 60));
     for (Vec3& p : points)
       p = Vec3(size * (offset + spread * DVec3(normal(random), normal(random), normal(random))));
-    const ImageSize picture = kSizes[i % std::size(kSizes)];
+    const ImageSize picture = kSizes[static_cast<std::size_t>(i) % std::size(kSizes)];
     const View view{.azimuth = 400 * angle(random), .elevation = 90 * angle(random)};
     const PerspectiveCamera camera = frame(cloud(points), view, picture);
     const Extent extent = seen(widened(points), camera, picture);
@@ -160,7 +160,7 @@ TEST(Framing, RandomPointsAreCentered) {
     const Vec3 spread(normal(random), normal(random), normal(random));
     std::vector<Vec3> points(8);
     for (Vec3& p : points) p = spread * Vec3(normal(random), normal(random), normal(random));
-    const ImageSize size = kSizes[i % std::size(kSizes)];
+    const ImageSize size = kSizes[static_cast<std::size_t>(i) % std::size(kSizes)];
     const double value = imbalance(seen(widened(points), frame(cloud(points), View{}, size), size));
     EXPECT_LT(value, 0.07) << i;
     sum += value;
