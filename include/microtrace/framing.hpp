@@ -65,7 +65,7 @@ class MICROTRACE_EXPORT Framing {
   double vertical_fov_;      // radians
   // The maximum extents of the shapes along the outward normals of frustums of several slopes, on
   // two opposite sides. Slopes are multiples of the greatest; 0 has the index 0.
-  struct Sides {
+  struct MICROTRACE_HIDDEN Sides {
     static constexpr std::size_t kSlopes = 5;
 
     DVec3 axis;    // right_ or up_
