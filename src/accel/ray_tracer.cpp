@@ -11,6 +11,18 @@
 #include <bit>
 
 namespace microtrace {
+namespace {
+
+/// Calls f(part, first) for parts of the rays, from ray `first` on, that a stream can trace.
+void for_each_part(const RayColumns& rays, const auto& f) {
+  for (std::size_t first = 0; first < rays.count; first += kStreamRays) {
+    RayColumns part = rays.from(first);
+    part.count = std::min<std::size_t>(part.count, kStreamRays);
+    f(part, first);
+  }
+}
+
+}  // namespace
 
 struct RayTracer::Queries {
   explicit Queries(const Bvh::Impl& impl)
@@ -49,12 +61,10 @@ void RayTracer::closest(const RayColumns& rays, std::span<PrimitiveId> ids) {
     for (std::size_t i = 0; i < rays.count; ++i) ask_one(i);
     return;
   }
-  for (std::size_t first = 0; first < rays.count; first += kStreamRays) {
-    RayColumns part = rays.from(first);
-    part.count = std::min<std::size_t>(part.count, kStreamRays);
+  for_each_part(rays, [&](const RayColumns& part, std::size_t first) {
     queries().stream.closest(part, ids.subspan(first, part.count),
                              [&](std::size_t i) { ask_one(first + i); });
-  }
+  });
 }
 
 bool RayTracer::knows_fronts() const {
@@ -76,12 +86,10 @@ void RayTracer::any(const RayColumns& rays, const std::uint32_t* open, std::span
     return;
   }
   queries().stream.set_open_fronts(open);
-  for (std::size_t first = 0; first < rays.count; first += kStreamRays) {
-    RayColumns part = rays.from(first);
-    part.count = std::min<std::size_t>(part.count, kStreamRays);
+  for_each_part(rays, [&](const RayColumns& part, std::size_t first) {
     queries().stream.any(part, ids.subspan(first, part.count),
                          [&](std::size_t i) { ask_one(first + i); });
-  }
+  });
   queries().stream.set_open_fronts(nullptr);
 }
 

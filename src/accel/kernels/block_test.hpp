@@ -198,7 +198,7 @@ inline void meet_lanes(const TreeView& tree, const TriangleBlock& block, const B
     if (kAny && is_open_front(tree, id)) {
       const Within front = meets_front(block, lane, ray.d);
       if (front == Within::unsure) fallback(id, best);
-      if (kAny && best.id != kNoPrimitive) return;
+      if (best.id != kNoPrimitive) return;
       if (front != Within::no) continue;
     }
     consider(block, lane, {ray.o, ray.d, ray.t_min},

@@ -161,9 +161,8 @@ void FastSpawns::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes,
 
 Lanes FastSpawns::leave(Lanes wanted, OriginLanes& lanes) const {
   const Lanes open = wanted & alone_;
-  Lanes found = 0;
-  if ((open & triangles_) != 0) found = spawn_kernels_.find_origins(*points_, lanes) & open;
-  found &= triangles_;
+  Lanes found = open & triangles_;
+  if (found != 0) found &= spawn_kernels_.find_origins(*points_, lanes);
   for (Lanes others = open & ~triangles_; others != 0; others &= others - 1) {
     const auto hit = static_cast<std::size_t>(std::countr_zero(others));
     const auto& surface = surfaces_[hit].other;

@@ -1,4 +1,5 @@
 #pragma once
+#include "accel/ray_stream.hpp"
 #include "render/integrators/power_heuristic.hpp"
 #include "render/lights/emitters.hpp"
 #include "render/sampling/dimensions.hpp"
@@ -53,16 +54,25 @@ struct alignas(64) PathColumns {
   }
 };
 
-/// Rays in one array per component, as RayColumns refers to them.
+/// Rays in one array per component.
 struct alignas(64) RayArrays {
   PathFloats o[3], d[3], t_max;
   PathNumbers left;
 };
 
+/// The first `count` rays of RayArrays, PathColumns (except for camera rays, whose t_min is not 0)
+/// or ShadowColumns.
+template <class Arrays>
+[[nodiscard]] RayColumns columns_of(const Arrays& rays, std::size_t count) {
+  return {.o = {rays.o[0], rays.o[1], rays.o[2]},
+          .d = {rays.d[0], rays.d[1], rays.d[2]},
+          .t_max = rays.t_max,
+          .left = rays.left,
+          .count = count};
+}
+
 /// Shadow rays in one array per component, and the light that arrives unless they are occluded.
-struct alignas(64) ShadowColumns {
-  PathFloats o[3], d[3], t_max;
-  PathNumbers left;    ///< the primitive that the ray leaves
+struct alignas(64) ShadowColumns : RayArrays {
   PathNumbers target;  ///< the emissive surface at which the ray ends, or LightSamples::kNoTarget
   PathNumbers slot;    ///< of the path
   PathFloats light[3];

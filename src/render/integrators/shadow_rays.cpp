@@ -28,14 +28,6 @@ void ShadowRays::Group::add(const ShadingKernels& kernels, Lanes lanes, const Sh
   count += static_cast<std::size_t>(std::popcount(lanes));
 }
 
-RayColumns ShadowRays::Group::columns() const {
-  return {.o = {rays.o[0], rays.o[1], rays.o[2]},
-          .d = {rays.d[0], rays.d[1], rays.d[2]},
-          .t_max = rays.t_max,
-          .left = rays.left,
-          .count = count};
-}
-
 void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   LaneFloats t_max;
@@ -52,43 +44,44 @@ void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLan
 
 std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading& shading,
                                 Backfaces backfaces, std::span<Vec3> colors) {
-  passes_backs_ = backfaces == Backfaces::pass;
-  beyond_ = 0;
+  const bool passes_backs = backfaces == Backfaces::pass;
+  std::uint64_t beyond = 0;
   // False if each surface blocks the light.
-  const bool may_pass = !shading.all_cover() || (passes_backs_ && shading.has_open_backs());
+  const bool may_pass = !shading.all_cover() || (passes_backs && shading.has_open_backs());
   const bool knows_fronts =
-      passes_backs_ && shading.open_fronts() != nullptr && tracer.knows_fronts();
+      passes_backs && shading.open_fronts() != nullptr && tracer.knows_fronts();
   // False if only surfaces that are not opaque let light through.
-  const bool may_pass_opaque = passes_backs_ && shading.has_open_backs() && !knows_fronts;
+  const bool may_pass_opaque = passes_backs && shading.has_open_backs() && !knows_fronts;
   const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
     colors[rays.slot[i]] += part * vector_of(rays.light, i);
   };
-  tracer.any(free_.columns(), knows_fronts ? shading.open_fronts() : nullptr,
+  const RayColumns free = columns_of(free_.rays, free_.count);
+  tracer.any(free, knows_fronts ? shading.open_fronts() : nullptr,
              std::span(hits_).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
     if (hits_[i] == kNoPrimitive) {
       add(free_.rays, i, 1);
     } else if (may_pass_opaque || !shading.is_opaque(hits_[i])) {
-      const Ray ray = free_.columns()[i];
+      const Ray ray = free[i];
       const std::optional<Hit> hit = bvh.intersect(ray);
-      add(free_.rays, i,
-          transmittance(bvh, shading, passes_backs_, ray, hit, std::nullopt, beyond_));
+      add(free_.rays, i, transmittance(bvh, shading, passes_backs, ray, hit, std::nullopt, beyond));
     }
   }
-  tracer.closest(aimed_.columns(), std::span(hits_).first(aimed_.count));
+  const RayColumns aimed = columns_of(aimed_.rays, aimed_.count);
+  tracer.closest(aimed, std::span(hits_).first(aimed_.count));
   for (std::size_t i = 0; i < aimed_.count; ++i) {
     const PrimitiveId target = aimed_.rays.target[i];
     if (hits_[i] == target) {
       add(aimed_.rays, i, 1);
     } else if (may_pass && hits_[i] != kNoPrimitive) {
-      const Ray ray = aimed_.columns()[i];
+      const Ray ray = aimed[i];
       add(aimed_.rays, i,
-          transmittance(bvh, shading, passes_backs_, ray, tracer.hit(ray, hits_[i]), target,
-                        beyond_));
+          transmittance(bvh, shading, passes_backs, ray, tracer.hit(ray, hits_[i]), target,
+                        beyond));
     }
   }
   free_.count = aimed_.count = 0;
-  return beyond_;
+  return beyond;
 }
 
 }  // namespace microtrace

@@ -47,13 +47,10 @@ class ShadowRays {
 
     void add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from,
              const LaneFloats& t_max);
-    [[nodiscard]] RayColumns columns() const;
   };
 
   Group free_, aimed_;
   std::array<PrimitiveId, kRandomBatch> hits_;  // working memory
-  std::uint64_t beyond_ = 0;
-  bool passes_backs_ = false;
 };
 
 }  // namespace microtrace

@@ -53,9 +53,8 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
     put_vector(paths.d, i, rays[i].d);
     paths.t_min[i] = rays[i].t_min;
     paths.t_max[i] = rays[i].t_max;
-    const sampling::Sobol sobol(ids[i].key, ids[i].index);
-    paths.key[i] = sobol.key();
-    paths.index[i] = sobol.index();
+    paths.key[i] = ids[i].key;
+    paths.index[i] = ids[i].index;
     paths.slot[i] = static_cast<std::uint32_t>(i);
     paths.channel[i] = 3;
     colors_[i] = Vec3(0);
@@ -70,13 +69,7 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
 void Wave::intersect(std::span<const Ray> camera_rays) {
   const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
   if (step_.depth > 1) {
-    const PathColumns& paths = *paths_;
-    tracer_.closest({.o = {paths.o[0], paths.o[1], paths.o[2]},
-                     .d = {paths.d[0], paths.d[1], paths.d[2]},
-                     .t_max = paths.t_max,
-                     .left = paths.left,
-                     .count = count_},
-                    std::span(hits_).first(count_));
+    tracer_.closest(columns_of(*paths_, count_), std::span(hits_).first(count_));
     if (knows_blocked()) find_blocked();
     return;
   }

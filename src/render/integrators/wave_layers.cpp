@@ -16,12 +16,8 @@ void Wave::find_blocked() {
     open_rays_.left[count] = paths.left[i];
     open_paths_[count++] = i;
   }
-  tracer_.any({.o = {open_rays_.o[0], open_rays_.o[1], open_rays_.o[2]},
-               .d = {open_rays_.d[0], open_rays_.d[1], open_rays_.d[2]},
-               .t_max = open_rays_.t_max,
-               .left = open_rays_.left,
-               .count = count},
-              shading_->open_fronts(), std::span(open_blockers_).first(count));
+  tracer_.any(columns_of(open_rays_, count), shading_->open_fronts(),
+              std::span(open_blockers_).first(count));
   for (std::size_t k = 0; k < count; ++k) blockers_[open_paths_[k]] = open_blockers_[k];
 }
 

@@ -43,10 +43,8 @@ class Emitters {
   [[nodiscard]] std::optional<LightSample> sample_far(const Vec3& p, float choice,
                                                       double probability) const;
 
-  /// The emissive triangles of meshes; null if there are none.
-  [[nodiscard]] const TriangleLight* triangles() const {
-    return triangles_.empty() ? nullptr : triangles_.data();
-  }
+  /// The emissive triangles of meshes.
+  [[nodiscard]] const TriangleLight* triangles() const { return triangles_.data(); }
   /// The index of a near light among the triangles; nothing for other lights.
   [[nodiscard]] std::optional<std::uint32_t> triangle_index(std::uint32_t light) const {
     const Emitter& emitter = emitters_[light];

@@ -117,7 +117,7 @@ void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices
     }
   }
   if (samples_environment()) sample_environment(count, choices, samples);
-  if (emitters_.triangles() != nullptr)
+  if (std::ranges::any_of(triangles.selected, [](float selected) { return selected != 0; }))
     kernels.sample_triangles(emitters_.triangles(), triangles, points, samples);
 }
 
