@@ -39,6 +39,22 @@ struct FixedSum {
     *this += (bits >> 63U) != 0 ? term.negated() : term;
   }
 
+  /// Adds whole 2^-32 + part 2^-FractionBits, where |whole| < 2^62 and |part| < 2^62.
+  void add(std::int64_t whole, std::int64_t part) {
+    const Wide term = (static_cast<Wide>(whole) << (FractionBits - 32U)) + static_cast<Wide>(part);
+    if constexpr (Words == 1) {
+      words[0] += static_cast<std::uint64_t>(term);
+    } else {
+      const Wide sum = (Wide{words[1]} << 64U | words[0]) + term;
+      words[0] = static_cast<std::uint64_t>(sum);
+      words[1] = static_cast<std::uint64_t>(sum >> 64U);
+      if constexpr (Words == 3) {
+        if (sum < term) ++words[2];
+        if (static_cast<std::uint64_t>(term >> 127U) != 0) --words[2];
+      }
+    }
+  }
+
   FixedSum& operator+=(const FixedSum& other) {
     std::uint64_t carry = 0;
     for (std::size_t i = 0; i < Words; ++i) {
@@ -73,20 +89,7 @@ struct FixedSum {
     const double upper = x * 0x1p32;
     const auto whole = static_cast<std::int64_t>(upper);
     constexpr auto kScale = std::bit_cast<double>(std::uint64_t{1023 + FractionBits - 32} << 52U);
-    const auto part = static_cast<std::int64_t>((upper - static_cast<double>(whole)) * kScale);
-    const Wide term = (static_cast<Wide>(whole) << (FractionBits - 32U)) + static_cast<Wide>(part);
-    const auto low = static_cast<std::uint64_t>(term);
-    if constexpr (Words == 1) {
-      words[0] += low;
-    } else {
-      const Wide sum = (Wide{words[1]} << 64U | words[0]) + term;
-      words[0] = static_cast<std::uint64_t>(sum);
-      words[1] = static_cast<std::uint64_t>(sum >> 64U);
-      if constexpr (Words == 3) {
-        if (sum < term) ++words[2];
-        if (x < 0 && term != 0) --words[2];
-      }
-    }
+    add(whole, static_cast<std::int64_t>((upper - static_cast<double>(whole)) * kScale));
   }
 
   [[nodiscard]] FixedSum negated() const {

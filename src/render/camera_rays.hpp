@@ -33,6 +33,11 @@ class CameraRays {
   }
   [[nodiscard]] bool has_lens() const { return camera_.has_lens(); }
 
+  /// Sets rays[i] to the ray through the pixel coordinates (x[i], y[i]).
+  void through(std::span<const double> x, std::span<const double> y, std::span<Ray> rays) const {
+    camera_.through(x, y, t_min_, rays);
+  }
+
   /// Sets `rays` to the rays through the centers of the tile's pixels, row by row.
   void centers(const PixelRect& tile, std::span<Ray> rays) const {
     camera_.centers(tile.x0, tile.y0, tile.size().width, t_min_, rays);

@@ -12,8 +12,13 @@ template <class Color>
 auto luminance(const Color& c) {
   return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z;
 }
-inline double luminance(const DVec3& c) {
+/// luminance() in float64.
+template <class Color>
+auto precise_luminance(const Color& c) {
   return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+inline double luminance(const DVec3& c) {
+  return precise_luminance(c);
 }
 
 }  // namespace microtrace

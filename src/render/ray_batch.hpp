@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cstddef>
-#include <new>
 #include <span>
+#include <utility>
 
 namespace microtrace {
 
@@ -20,28 +20,35 @@ class RayBatch {
         no_ray_{.color = Vec3(0), .alpha = has_alpha ? 0.0F : 1.0F},
         is_data_(integrator.is_data()) {}
 
-  [[nodiscard]] bool is_full() const { return count_ == Size; }
+  /// True if there is no space for this number of further rays.
+  [[nodiscard]] bool is_full(std::size_t more = 1) const { return count_ + more > Size; }
 
-  /// Adds the ray that make_ray() returns. The ray is created in place, because copying a struct
-  /// that was just written in parts is slow.
-  template <class MakeRay>
-  void add(std::size_t pixel, const SampleId& id, const MakeRay& make_ray) {
-    ::new (&rays_[count_]) Ray(make_ray());
+  void add(std::size_t pixel, const SampleId& id) {
     ids_[count_] = id;
     pixels_[count_++] = pixel;
   }
+  /// The rays of the last `count` calls of add(), which the caller sets.
+  [[nodiscard]] std::span<Ray> last_rays(std::size_t count) {
+    return std::span(rays_).subspan(count_ - count, count);
+  }
 
-  /// Traces the rays, calls f(pixel, sample) in the order of the rays, and clears the batch.
-  template <class F>
-  void trace(const World& world, F&& f) {
+  struct Results {
+    std::span<const std::size_t> pixels;
+    std::span<const Sample> samples;
+  };
+  /// Traces the rays and clears the batch. The results, in the order of the rays, are valid until
+  /// the next call.
+  [[nodiscard]] Results trace(const World& world) {
     integrator_.trace(world, std::span(rays_).first(count_), std::span(ids_).first(count_),
                       std::span(samples_).first(count_));
-    for (std::size_t i = 0; i < count_; ++i) {
-      // RayGenerator marks missing rays by a negative t_max.
-      const bool has_ray = rays_[i].t_max >= 0;
-      f(pixels_[i], has_ray || is_data_ ? samples_[i] : no_ray_);
+    if (!is_data_) {
+      for (std::size_t i = 0; i < count_; ++i) {
+        // RayGenerator marks missing rays by a negative t_max.
+        if (!(rays_[i].t_max >= 0)) samples_[i] = no_ray_;
+      }
     }
-    count_ = 0;
+    const std::size_t count = std::exchange(count_, 0);
+    return {.pixels = std::span(pixels_).first(count), .samples = std::span(samples_).first(count)};
   }
 
  private:

@@ -64,33 +64,31 @@ void TilePainter::paint_block(const PixelRect& block) const {
               sample.color, sample.alpha, background_);
   };
   RayBatch<kMaxBatch> batch(integrator_, film_.has_alpha());
-  const auto gather = [&](auto&& before_each) {
-    std::size_t pixel = 0;
-    for (std::uint32_t y = block.y0; y < block.y1; ++y) {
-      for (std::uint32_t x = block.x0; x < block.x1; ++x, ++pixel) {
-        for (std::uint32_t k = 0; k < pattern_.size(); ++k) {
-          before_each();
-          batch.add(pixel, {.x = x, .y = y, .index = k},
-                    [&] { return ray_(x + pattern_[k].x, y + pattern_[k].y); });
-        }
+  std::array<Sum, kTilePixels> sums{};
+  const bool is_single = pattern_.size() == 1;
+  const auto trace = [&] {
+    const auto [pixels, samples] = batch.trace(world_);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (is_single)
+        set(pixels[i], samples[i]);
+      else
+        sums[pixels[i]].add(samples[i]);
+    }
+  };
+  std::size_t pixel = 0;
+  for (std::uint32_t y = block.y0; y < block.y1; ++y) {
+    for (std::uint32_t x = block.x0; x < block.x1; ++x, ++pixel) {
+      for (std::uint32_t k = 0; k < pattern_.size(); ++k) {
+        if (batch.is_full()) trace();
+        batch.add(pixel, {.x = x, .y = y, .index = k});
+        batch.last_rays(1)[0] = ray_(x + pattern_[k].x, y + pattern_[k].y);
       }
     }
-    return pixel;
-  };
-  if (pattern_.size() == 1) {
-    gather([] {});
-    batch.trace(world_, set);
-    return;
   }
-  std::array<Sum, kTilePixels> sums{};
-  const auto add = [&](std::size_t pixel, const Sample& sample) { sums[pixel].add(sample); };
-  const std::size_t pixels = gather([&] {
-    if (batch.is_full()) batch.trace(world_, add);
-  });
-  batch.trace(world_, add);
-  for (std::size_t p = 0; p < pixels; ++p) {
+  trace();
+  if (is_single) return;
+  for (std::size_t p = 0; p < pixel; ++p)
     set(p, sums[p].over(static_cast<double>(pattern_.size())));
-  }
 }
 
 void TilePainter::paint(const PixelRect& tile) const {

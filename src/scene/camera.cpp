@@ -7,6 +7,7 @@
 #include <microtrace/camera.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -176,6 +177,26 @@ void RayGenerator::centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays
 
 void RayGenerator::centers(std::uint32_t x, std::uint32_t y, std::uint32_t width, float least_t_min,
                            std::span<Ray> rays) const {
+  constexpr std::size_t kChunk = 64;
+  std::array<double, kChunk> xs, ys;
+  std::size_t column = 0;
+  double center_y = y + 0.5;
+  for (std::size_t first = 0; first < rays.size(); first += kChunk) {
+    const std::size_t size = std::min(kChunk, rays.size() - first);
+    for (std::size_t i = 0; i < size; ++i) {
+      xs[i] = x + static_cast<double>(column) + 0.5;
+      ys[i] = center_y;
+      if (++column < width) continue;
+      column = 0;
+      ++center_y;
+    }
+    through(std::span(xs).first(size), std::span(ys).first(size), least_t_min,
+            rays.subspan(first, size));
+  }
+}
+
+void RayGenerator::through(std::span<const double> x, std::span<const double> y, float least_t_min,
+                           std::span<Ray> rays) const {
   const FloatEnvironment environment;
   if (kind_ == Kind::perspective) {
     static const SceneKernels& kernels = kSceneKernels.best();
@@ -186,12 +207,11 @@ void RayGenerator::centers(std::uint32_t x, std::uint32_t y, std::uint32_t width
                                  .least_t_min = least_t_min,
                                  .near = depth_.near,
                                  .far = depth_.far};
-    kernels.perspective_rays(camera, x + 0.5, y + 0.5, width, rays.data(), rays.size());
+    kernels.perspective_rays(camera, x.data(), y.data(), rays.data(), rays.size());
     return;
   }
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    rays[i] =
-        ray_at(x + static_cast<double>(i % width) + 0.5, y + static_cast<double>(i / width) + 0.5);
+    rays[i] = ray_at(x[i], y[i]);
     rays[i].t_min = std::max(rays[i].t_min, least_t_min);
   }
 }

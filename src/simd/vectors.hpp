@@ -61,13 +61,20 @@ inline Float<N> with_sign_of(const Float<N>& a, const Float<N>& b) {
   return reinterpreted<Float<N>>(reinterpreted<Int<N>>(a) ^ (reinterpreted<Int<N>>(b) & INT32_MIN));
 }
 
-/// Rounds toward zero to integers. Each lane must be in the range of int32.
+/// Rounds toward zero to integers. Each lane must be in the range of the integers.
 template <int N>
 inline Int<N> truncated(const Float<N>& a) {
   if constexpr (N == 1)
     return static_cast<Int<N>>(a);
   else
     return __builtin_convertvector(a, Int<N>);
+}
+template <int N>
+inline Long<N> truncated(const Double<N>& a) {
+  if constexpr (N == 1)
+    return static_cast<Long<N>>(a);
+  else
+    return __builtin_convertvector(a, Long<N>);
 }
 template <int N>
 inline Float<N> to_float(const Int<N>& a) {
@@ -104,6 +111,13 @@ template <int N>
 inline Double<N> to_double(const Float<N>& a) {
   if constexpr (N == 1)
     return a;
+  else
+    return __builtin_convertvector(a, Double<N>);
+}
+template <int N>
+inline Double<N> to_double(const Long<N>& a) {
+  if constexpr (N == 1)
+    return static_cast<double>(a);
   else
     return __builtin_convertvector(a, Double<N>);
 }

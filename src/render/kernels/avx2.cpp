@@ -3,13 +3,17 @@
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
+#include "render/kernels/sum_samples.hpp"
 
 namespace microtrace {
 const ShadingKernels kAvx2Shading{"avx2",
                                   append<8>,
                                   random_pairs<8>,
+                                  sample_positions<8>,
+                                  sum_samples<kDoubleLanes<8>>,
                                   find_points<8, kShadingLanes>,
                                   find_normals<8>,
                                   choose_lights<8, kShadingLanes>,

@@ -3,13 +3,17 @@
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
+#include "render/kernels/sum_samples.hpp"
 
 namespace microtrace {
 const ShadingKernels kAvx512Shading{"avx512",
                                     append<16>,
                                     random_pairs<16>,
+                                    sample_positions<16>,
+                                    sum_samples<kDoubleLanes<16>>,
                                     find_points<16, kShadingLanes>,
                                     find_normals<16>,
                                     choose_lights<16, kShadingLanes>,

@@ -6,6 +6,7 @@
 /// A kernel performs the same computation for up to kShadingLanes paths.
 
 #include "render/bsdf/features.hpp"
+#include "render/kernels/film_lanes.hpp"
 #include "render/kernels/light_lanes.hpp"
 #include "render/kernels/surface_lanes.hpp"
 
@@ -93,6 +94,15 @@ struct ShadingKernels {
   /// Computes sampling::Sobol(keys[i], indices[i]).pair(number) for kShadingLanes samples.
   void (*random_pairs)(const std::uint32_t* keys, const std::uint32_t* indices,
                        std::uint32_t number, float* x, float* y);
+  /// Samples positions in pixels, measured from their upper left corners, by these pairs of random
+  /// numbers. A filter of null is the box filter.
+  void (*sample_positions)(const std::uint32_t* keys, const std::uint32_t* indices,
+                           std::uint32_t number, const FilterTable* filter, double* x, double* y);
+  /// Adds kShadingLanes samples, colors with alpha, to the sums of consecutive pixels, except
+  /// samples that are not numbers or whose terms exceed TermSums::kLimit. Returns the latter's
+  /// lanes.
+  std::uint32_t (*sum_samples)(const SumSetup& setup, const float* samples, TermSums& sums,
+                               int pixel);
   void (*find_points)(HitLanes& lanes);
   void (*find_normals)(const NormalLanes& points, NormalMapLanes& map);
   void (*choose_lights)(const LightChoiceSetup& setup, LightChoices<kShadingLanes>& lanes);

@@ -3,13 +3,17 @@
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
+#include "render/kernels/sum_samples.hpp"
 
 namespace microtrace {
 const ShadingKernels kPortableShading{"portable",
                                       append<4>,
                                       random_pairs<4>,
+                                      sample_positions<4>,
+                                      sum_samples<kDoubleLanes<4>>,
                                       find_points<4, kShadingLanes>,
                                       find_normals<4>,
                                       choose_lights<4, kShadingLanes>,

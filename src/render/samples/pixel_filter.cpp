@@ -1,9 +1,8 @@
 #include "render/samples/pixel_filter.hpp"
 
+#include "render/kernels/sample_positions.hpp"
 #include "scene/math/trigonometry.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace microtrace {
@@ -36,21 +35,21 @@ double reach_of(double weight) {
 
 }  // namespace
 
-FilterSampler::FilterSampler(PixelFilter filter) : filter_(filter) {
+FilterSampler::FilterSampler(PixelFilter filter) {
   if (filter == PixelFilter::box) return;
-  for (std::size_t i = 1; i < kSteps; ++i) {
+  constexpr int kSteps = FilterTable::kSteps;
+  FilterTable& table = table_.emplace();
+  table.reach[0] = 0;
+  for (int i = 1; i < kSteps; ++i) {
     const double outside = 1 - static_cast<double>(i) / kSteps;
-    reach_[i] = 2 * kRadius * reach_of(1 - outside * outside);
+    table.reach[i] = 2 * kRadius * reach_of(1 - outside * outside);
   }
-  reach_[kSteps] = kRadius;
+  table.reach[kSteps] = kRadius;
 }
 
-double FilterSampler::place(double u) const {
-  const double at = (1 - std::sqrt(1 - std::abs(2 * u - 1))) * kSteps;
-  const std::size_t step = std::min(static_cast<std::size_t>(at), kSteps - 1);
-  const double share = at - static_cast<double>(step);
-  const double reach = reach_[step] + share * (reach_[step + 1] - reach_[step]);
-  return u < 0.5 ? 0.5 - reach : 0.5 + reach;
+PixelOffset FilterSampler::operator()(double u, double v) const {
+  if (!table_) return {.x = u, .y = v};
+  return {.x = filtered_place<1>(*table_, u), .y = filtered_place<1>(*table_, v)};
 }
 
 }  // namespace microtrace

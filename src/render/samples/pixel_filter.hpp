@@ -2,12 +2,12 @@
 /// Samples positions around a pixel's center by the pixel filter, so that all samples have equal
 /// weight.
 
+#include "render/kernels/film_lanes.hpp"
 #include "render/samples/sample_pattern.hpp"
 
 #include <microtrace/render.hpp>
 
-#include <array>
-#include <cstddef>
+#include <optional>
 
 namespace microtrace {
 
@@ -20,19 +20,13 @@ class FilterSampler {
   /// Maps u, v in [0, 1] to a position in pixels, measured from the pixel's upper left corner.
   /// Equal areas map to equal parts of the filter's weight, and (1/2, 1/2) maps to the pixel's
   /// center.
-  [[nodiscard]] PixelOffset operator()(double u, double v) const {
-    if (filter_ == PixelFilter::box) return {.x = u, .y = v};
-    return {.x = place(u), .y = place(v)};
-  }
+  [[nodiscard]] PixelOffset operator()(double u, double v) const;
+
+  /// The table for kernels; null for the box filter.
+  [[nodiscard]] const FilterTable* table() const { return table_ ? &*table_ : nullptr; }
 
  private:
-  [[nodiscard]] double place(double u) const;
-
-  static constexpr std::size_t kSteps = 512;
-  PixelFilter filter_;
-  /// Entry i is the distance from the center, in pixels, that contains all but (1 - i / kSteps)^2
-  /// of the weight. The square shortens the steps where the filter is low.
-  std::array<double, kSteps + 1> reach_{};
+  std::optional<FilterTable> table_{};
 };
 
 }  // namespace microtrace

@@ -1,9 +1,8 @@
 #include "render/samples/random_painter.hpp"
 
-#include "float_environment.hpp"
 #include "render/kernels/dispatch.hpp"
 #include "render/ray_batch.hpp"
-#include "render/samples/add_sample.hpp"
+#include "render/samples/pixel_adder.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/tiles.hpp"
@@ -28,13 +27,7 @@ RandomPainter::RandomPainter(const World& world, const Integrator& integrator,
 void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
                         std::span<PixelSum> sums) const {
   RayBatch<kRandomBatch> batch(integrator_, has_alpha_);
-  std::uint64_t invalid = 0;
-  const auto trace = [&] {
-    const FloatEnvironment environment;
-    batch.trace(world_, [&](std::size_t pixel, const Sample& sample) {
-      if (!add_sample(sums[pixel], sample.color, sample.alpha, background_)) ++invalid;
-    });
-  };
+  PixelAdder adder(kernels_, background_, sums);
   struct Pixel {
     std::uint32_t x, y;
   };
@@ -52,33 +45,43 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
   // one sample in the slice among `slice_.count` samples.
   static_assert(kTilePixels % kShadingLanes == 0);
   std::array<std::uint32_t, kShadingLanes> indices;
-  std::array<float, kShadingLanes> u, v, lens_u{}, lens_v{};
-  std::uint64_t added = 0;
+  std::array<double, kShadingLanes> u, v, x, y;
+  std::array<float, kShadingLanes> lens_u, lens_v;
   for (std::uint32_t k = range.first - range.first % slice_.count; k < range.last;
        k += slice_.count) {
     for (std::size_t first = 0; first < count; first += kShadingLanes) {
       for (std::size_t i = 0; i < kShadingLanes; ++i) indices[i] = k + first_samples[first + i];
-      kernels_.random_pairs(&keys[first], indices.data(), sampling::kPixelPair, u.data(), v.data());
+      kernels_.sample_positions(&keys[first], indices.data(), sampling::kPixelPair, filter_.table(),
+                                u.data(), v.data());
       if (ray_.has_lens()) {
         kernels_.random_pairs(&keys[first], indices.data(), sampling::kLensPair, lens_u.data(),
                               lens_v.data());
       }
+      if (batch.is_full(kShadingLanes)) adder.add(batch.trace(world_));
       const std::size_t size = std::min<std::size_t>(count - first, kShadingLanes);
+      std::size_t rays = 0;
       for (std::size_t i = 0; i < size; ++i) {
         if (indices[i] < range.first || indices[i] >= range.last) continue;
-        if (batch.is_full()) trace();
-        ++added;
         const Pixel pixel = pixels[first + i];
-        const PixelOffset offset = filter_(u[i], v[i]);
-        const SampleId id{.x = pixel.x, .y = pixel.y, .index = indices[i], .key = keys[first + i]};
-        const double x = pixel.x + offset.x, y = pixel.y + offset.y;
-        batch.add(first + i, id, [&] { return ray_.sample(x, y, {lens_u[i], lens_v[i]}); });
+        x[rays] = pixel.x + u[i];
+        y[rays] = pixel.y + v[i];
+        lens_u[rays] = lens_u[i];
+        lens_v[rays++] = lens_v[i];
+        batch.add(first + i,
+                  {.x = pixel.x, .y = pixel.y, .index = indices[i], .key = keys[first + i]});
       }
+      const std::span<Ray> made = batch.last_rays(rays);
+      if (!ray_.has_lens()) {
+        ray_.through(std::span(x).first(rays), std::span(y).first(rays), made);
+        continue;
+      }
+      for (std::size_t i = 0; i < rays; ++i)
+        made[i] = ray_.sample(x[i], y[i], {lens_u[i], lens_v[i]});
     }
   }
-  trace();
-  samples_ += added;
-  invalid_ += invalid;
+  adder.add(batch.trace(world_));
+  samples_ += adder.samples();
+  invalid_ += adder.invalid();
 }
 
 }  // namespace microtrace

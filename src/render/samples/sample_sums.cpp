@@ -1,5 +1,6 @@
 #include "float_environment.hpp"
 #include "render/film_pixel.hpp"
+#include "render/kernels/sum_samples.hpp"
 #include "render/luminance.hpp"
 #include "render/samples/add_sample.hpp"
 
@@ -8,38 +9,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/common.hpp>
-
 namespace microtrace {
 
 bool add_sample(PixelSum& sum, const Vec3& sample, float sample_alpha, const Vec3& background) {
   auto& [color, alpha, square, count] = sum;
   ++count;
-  // A fast path for rays that hit nothing, which are common. Only the background's luminance
-  // counts.
-  if (sample == Vec3(0) && sample_alpha == 0) {
-    if (background != Vec3(0)) {
-      const double y = luminance(glm::min(DVec3(background), DVec3(kMaxSampleLight)));
-      square.add(y * y);
-    }
-    return true;
-  }
   const bool is_number = !std::isnan(sample.x) && !std::isnan(sample.y) && !std::isnan(sample.z) &&
                          !std::isnan(sample_alpha);
   if (!is_number) {
     alpha.add(1);
     return false;
   }
-  DVec3 shown(0);
-  const double a = std::clamp(double{sample_alpha}, 0.0, 1.0);
-  for (glm::length_t c = 0; c < 3; ++c) {
-    const double value = std::clamp(double{sample[c]}, -kMaxSampleLight, kMaxSampleLight);
-    color[static_cast<std::size_t>(c)].add(value);
-    shown[c] = std::min(value + (1 - a) * background[c], kMaxSampleLight);
-  }
-  alpha.add(a);
-  const double y = luminance(shown);
-  square.add(y * y);
+  const SampleTerms<1> terms =
+      sample_terms<1>({sample.x, sample.y, sample.z}, sample_alpha,
+                      {background.x, background.y, background.z}, kMaxSampleLight);
+  for (std::size_t c = 0; c < color.size(); ++c) color[c].add(terms.color[c]);
+  alpha.add(terms.alpha);
+  square.add(terms.square);
   return true;
 }
 

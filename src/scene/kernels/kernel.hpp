@@ -56,9 +56,8 @@ struct SceneKernels {
   /// Computes the surfaces at the rays' hits in the lanes with triangles. Returns the lanes with
   /// valid results. Results are invalid for triangles that have no area or are seen edge-on.
   std::uint64_t (*find_surfaces)(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch);
-  /// Sets rays[i] to the ray through the pixel coordinates (x + i % width, y + i / width). `count`
-  /// must be a multiple of `width`.
-  void (*perspective_rays)(const PerspectiveRays& camera, double x, double y, std::size_t width,
+  /// Sets rays[i] to the ray through the pixel coordinates (x[i], y[i]).
+  void (*perspective_rays)(const PerspectiveRays& camera, const double* x, const double* y,
                            Ray* rays, std::size_t count);
 };
 

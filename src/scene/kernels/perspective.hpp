@@ -78,22 +78,20 @@ inline void store_rays(const Vec3& o, const LaneRays<N>& lanes, Ray* rays, std::
 }
 
 template <int N>
-void perspective_rays(const PerspectiveRays& camera, double x, double y, std::size_t width,
-                      Ray* rays, std::size_t count) {
-  const Double<N> zero{};
-  Double<N> steps{};
-  for (int i = 0; i < N; ++i) set_lane(steps, i, double(i));
+void perspective_rays(const PerspectiveRays& camera, const double* x, const double* y, Ray* rays,
+                      std::size_t count) {
   const Doubles3<N> corner = all_lanes<N>(camera.corner), right = all_lanes<N>(camera.right),
                     down = all_lanes<N>(camera.down);
   const Float<N> least = all<N>(camera.least_t_min);
-  for (std::size_t row = 0; row < count; row += width, y += 1) {
-    for (std::size_t first = 0; first < width; first += N) {
-      LaneRays<N> lanes = rays_toward<N>(
-          toward_pixel<N>(corner, right, down, steps + (x + static_cast<double>(first)), y - zero),
-          camera.near, camera.far);
-      lanes.t_min = lanes.t_min < least ? least : lanes.t_min;
-      store_rays<N>(camera.origin, lanes, rays + row + first, width - first);
-    }
+  for (std::size_t first = 0; first < count; first += N) {
+    const std::size_t left = count - first, size = left < N ? left : N;
+    Double<N> pixel_x{}, pixel_y{};
+    __builtin_memcpy(&pixel_x, x + first, size * sizeof(double));
+    __builtin_memcpy(&pixel_y, y + first, size * sizeof(double));
+    LaneRays<N> lanes = rays_toward<N>(toward_pixel<N>(corner, right, down, pixel_x, pixel_y),
+                                       camera.near, camera.far);
+    lanes.t_min = lanes.t_min < least ? least : lanes.t_min;
+    store_rays<N>(camera.origin, lanes, rays + first, size);
   }
 }
 

@@ -123,9 +123,13 @@ TEST(SceneKernels, MakeTheSameRays) {
   for (const SceneKernels* kernels : kSceneKernels.available()) {
     for (const std::size_t count : {0, 1, 2, 3, 7, 8, 9, 33, 64}) {
       std::vector<Ray> rays(count), expected(count);
-      const std::size_t width = count % 3 == 0 && count > 0 ? 3 : count;
-      kernels->perspective_rays(camera, 0.5, 2.5, width, rays.data(), count);
-      kPortableScene.perspective_rays(camera, 0.5, 2.5, width, expected.data(), count);
+      std::vector<double> x(count), y(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        x[i] = 0.37 * static_cast<double>(i) - 2;
+        y[i] = 2.5 - static_cast<double>(i * i % 11);
+      }
+      kernels->perspective_rays(camera, x.data(), y.data(), rays.data(), count);
+      kPortableScene.perspective_rays(camera, x.data(), y.data(), expected.data(), count);
       for (std::size_t i = 0; i < count; ++i) {
         expect_ray(rays[i], expected[i]);
         EXPECT_GE(rays[i].t_min, camera.least_t_min);

@@ -1,0 +1,42 @@
+#pragma once
+/// Adds batches of samples to the sums of pixels.
+
+#include "render/kernels/kernel.hpp"
+#include "render/ray_batch.hpp"
+
+#include <microtrace/integrator.hpp>
+#include <microtrace/math.hpp>
+#include <microtrace/sample_sums.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace microtrace {
+
+/// PixelSum::add() for the pixels of a tile, several samples at a time.
+class PixelAdder {
+ public:
+  /// The kernels and the sums, at most TermSums::kPixels, must outlive this object.
+  PixelAdder(const ShadingKernels& kernels, const Vec3& background, std::span<PixelSum> sums);
+
+  /// Adds samples of consecutive pixels fastest. The batch holds at most 1024 samples.
+  void add(const RayBatch<kRandomBatch>::Results& batch);
+
+  /// The number of samples, and the number of samples that were NaN.
+  [[nodiscard]] std::uint64_t samples() const { return samples_; }
+  [[nodiscard]] std::uint64_t invalid() const { return invalid_; }
+
+ private:
+  void add_one(std::size_t pixel, const Sample& sample);
+  /// Moves the terms of a batch to the pixels.
+  void move_terms();
+
+  const ShadingKernels& kernels_;
+  Vec3 background_;
+  std::span<PixelSum> sums_;
+  SumSetup setup_{};
+  TermSums terms_{};
+  std::uint64_t samples_ = 0, invalid_ = 0;
+};
+
+}  // namespace microtrace
