@@ -5,24 +5,29 @@
 namespace microtrace {
 namespace {
 
-void put_tangents(VertexGroup& group, int lane, const SurfacePoint& at) {
+void put_tangents(VertexGroup& group, int lane, const Mesh* mesh,
+                  const std::array<std::uint32_t, 3>& corners) {
+  group.mapped |= Lanes{1} << lane;
   group.handedness[lane] = 0;
-  if (at.mesh == nullptr || at.mesh->tangents.empty()) return;
+  if (mesh == nullptr || mesh->tangents.empty()) return;
   for (std::size_t corner = 0; corner < 3; ++corner)
-    put(group.tangents[corner], lane, Vec3(at.mesh->tangents[at.corners[corner]]));
-  group.handedness[lane] = at.mesh->tangents[at.corners[0]].w;
-  put(group.hits.lanes.weights, lane, at.barycentrics);
+    put(group.tangents[corner], lane, Vec3(mesh->tangents[corners[corner]]));
+  group.handedness[lane] = mesh->tangents[corners[0]].w;
 }
 
-void put_map(NormalMapLanes& lanes, int lane, const ShadingPoint& point, const TextureSlot& slot,
-             float scale) {
-  lanes.is_mapped[lane] = slot.map == nullptr ? 0.0F : 1.0F;
-  if (slot.map == nullptr) return;
-  put(lanes.texel, lane, Vec3(slot.at(point)));
+void put_texel(NormalMapLanes& lanes, int lane, const Vec3& texel, float scale) {
+  lanes.is_mapped[lane] = 1;
+  put(lanes.texel, lane, texel);
   lanes.scale[lane] = scale;
 }
 
 }  // namespace
+
+void put_normal_map(VertexGroup& group, int lane, const Mesh* mesh,
+                    const std::array<std::uint32_t, 3>& corners, const Vec3& texel, float scale) {
+  put_tangents(group, lane, mesh, corners);
+  put_texel(group.normals, lane, texel, scale);
+}
 
 void put_point(VertexGroup& group, int lane, const ShadingPoint& point) {
   const SurfacePoint& at = point.at;
@@ -39,14 +44,17 @@ void put_point(VertexGroup& group, int lane, const ShadingPoint& point) {
   const TexturedMaterial& look = *point.look;
   const TextureSlot& base = look[MaterialTexture::normal];
   const TextureSlot& coat = look[MaterialTexture::clearcoat_normal];
-  if (base.map != nullptr || coat.map != nullptr) {
-    group.mapped |= Lanes{1} << lane;
-    put_tangents(group, lane, at);
+  const bool has_coat = coat.map != nullptr && look.material->clearcoat.has_value();
+  group.normals.is_mapped[lane] = group.coat_normals.is_mapped[lane] = 0;
+  if (base.map == nullptr && !has_coat) return;
+  put(hits.weights, lane, at.barycentrics);
+  put_tangents(group, lane, at.mesh, at.corners);
+  if (base.map != nullptr)
+    put_texel(group.normals, lane, Vec3(base.at(point)), look.material->normal_scale);
+  if (has_coat) {
+    put_texel(group.coat_normals, lane, Vec3(coat.at(point)),
+              look.material->clearcoat->normal_scale);
   }
-  put_map(group.normals, lane, point, base, look.material->normal_scale);
-  const bool has_coat = look.material->clearcoat.has_value();
-  put_map(group.coat_normals, lane, point, has_coat ? coat : TextureSlot{},
-          has_coat ? look.material->clearcoat->normal_scale : 1);
 }
 
 }  // namespace microtrace

@@ -39,6 +39,10 @@ struct alignas(64) VertexGroup {
   std::array<bsdf::Features, kShadingLanes> features;  ///< of the lanes with a vertex
 };
 
+/// Sets the normal map of a lane and the tangents of its triangle, but not their weights.
+void put_normal_map(VertexGroup& group, int lane, const Mesh* mesh,
+                    const std::array<std::uint32_t, 3>& corners, const Vec3& texel, float scale);
+
 /// Sets the members of a lane that depend on its point: position, normals and normal maps.
 void put_point(VertexGroup& group, int lane, const ShadingPoint& point);
 

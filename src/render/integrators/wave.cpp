@@ -156,7 +156,16 @@ Lanes Wave::add_simple(std::size_t first) {
   const PathColumns& paths = *paths_;
   const HitLanes& hits = group.hits.lanes;
   const bool looks_behind = this->looks_behind();
-  Lanes simple = 0;
+  for (int lane = 0; lane < kShadingLanes; ++lane) {
+    const std::size_t i = first + static_cast<std::size_t>(lane);
+    group.width[lane] = paths.begin[i] + paths.spread[i] * hits.distance[lane];
+    group.on_mesh[lane] = 1;
+    group.normals.is_mapped[lane] = group.coat_normals.is_mapped[lane] = 0;
+    for (auto& weights : group.through_weight) weights[lane] = 1;
+    group.media[lane] = 0;
+    group.channel[lane] = paths.channel[i];
+  }
+  Lanes simple = 0, textured = 0;
   for (Lanes rest = group.hits.sure; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto k = static_cast<std::size_t>(lane);
@@ -167,30 +176,51 @@ Lanes Wave::add_simple(std::size_t first) {
                   : !look.has_back) ||
         paths.media[first + k] != 0 || is_last(first + k))
       continue;
-    simple |= Lanes{1} << lane;
+    const Lanes bit = Lanes{1} << lane;
+    simple |= bit;
+    if (look.is_textured) textured |= bit;
     group.side[lane] = is_front ? 1.0F : -1.0F;
-    group.features[k] = look.constant->features;
+    const BsdfInput& input = *look.constant_but_textures;
+    group.features[k] = input.features;
     if (group.surface_of[k] == &look) continue;
     group.surface_of[k] = &look;
-    put_surface(group.surface, lane, look.constant->parameters);
-    if (look.constant->features.index() != 0)
-      put_extensions(group.surface, lane, look.constant->parameters, look.constant->layers);
+    put_surface(group.surface, lane, input.parameters);
+    if (input.features.index() != 0)
+      put_extensions(group.surface, lane, input.parameters, input.layers);
   }
-  for (int lane = 0; lane < kShadingLanes; ++lane) {
-    const std::size_t i = first + static_cast<std::size_t>(lane);
-    group.width[lane] = paths.begin[i] + paths.spread[i] * hits.distance[lane];
-    group.on_mesh[lane] = 1;
-    group.normals.is_mapped[lane] = group.coat_normals.is_mapped[lane] = 0;
-    for (auto& weights : group.through_weight) weights[lane] = 1;
-    group.media[lane] = 0;
-    group.channel[lane] = paths.channel[i];
-  }
+  if (textured != 0) simple = (simple & ~textured) | add_textures(textured);
   if (step_.depth == 1) {
     for (Lanes rest = simple; rest != 0; rest &= rest - 1)
       alphas_[paths.slot[first + static_cast<std::size_t>(std::countr_zero(rest))]] = 1;
   }
   group.vertices = simple;
   return simple;
+}
+
+Lanes Wave::add_textures(Lanes lanes) {
+  VertexGroup& group = vertices_.group();
+  Shading::look_up(group.hits, lanes, group.width, texels_);
+  for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    const auto k = static_cast<std::size_t>(lane);
+    const TexturedMaterial& look = *group.hits.looks[k];
+    const Material& material = *look.material;
+    const Vec4 base_color = material.base_color * texels_.base_color[k];
+    if ((look.shines() && Vec3(texels_.emissive[k]) * material.emissive != Vec3(0)) ||
+        (material.alpha_mode == AlphaMode::mask && base_color.w < material.alpha_cutoff)) {
+      lanes &= ~(Lanes{1} << lane);
+      continue;
+    }
+    bsdf::Parameters base;
+    Shading::set_base(material, base_color, texels_.metallic_roughness[k], base);
+    put(group.surface.base_color, lane, base.base_color);
+    group.surface.metallic[lane] = base.metallic;
+    group.surface.roughness[lane] = base.roughness;
+    if (look[MaterialTexture::normal].map == nullptr) continue;
+    put_normal_map(group, lane, group.hits.meshes[k], group.hits.corners[k],
+                   Vec3(texels_.normal[k]), material.normal_scale);
+  }
+  return lanes;
 }
 
 void Wave::prepare(std::size_t i, ShadingPoint& point) const {

@@ -52,6 +52,9 @@ class Wave {
   /// Sets the vertices of the group's lanes whose surfaces need no further tests. Returns these
   /// lanes.
   [[nodiscard]] Lanes add_simple(std::size_t first);
+  /// Sets what textures determine in these lanes. Returns the lanes that need no further tests,
+  /// which neither emit nor are cut out by a mask.
+  [[nodiscard]] Lanes add_textures(Lanes lanes);
   /// Advances the path in a lane, which needs further tests.
   void step_slowly(std::size_t first, int lane);
   /// Moves path i through its medium along its ray. Returns true if the path reaches the hit. If it
@@ -148,6 +151,7 @@ class Wave {
   std::array<PrimitiveId, kRandomBatch> open_blockers_;
   std::array<Vec3, kRandomBatch> colors_;
   std::array<float, kRandomBatch> alphas_;
+  FrequentTexels texels_;
   // The input of a BSDF with textures. A local variable would be cleared for each vertex.
   std::optional<BsdfInput> varying_;
 };

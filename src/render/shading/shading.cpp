@@ -37,11 +37,24 @@ bool is_thin_glass(const Material& m) {
   return m.transmission && !has_back(m);
 }
 
+bool has_map(const TextureSlot& slot) {
+  return slot.map != nullptr;
+}
+
 bool is_missing_back(const ShadingPoint& point) {
   return !point.at.front && !has_back(*point.look->material);
 }
 
 }  // namespace
+
+bool TexturedMaterial::has_rare_textures() const {
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(slots, has_map));
+  const auto frequent = std::ranges::count_if(kFrequent, [&](MaterialTexture texture) {
+    return has_map((*this)[texture]) && (*this)[texture].shares_address;
+  });
+  return count != static_cast<std::size_t>(frequent) ||
+         (has_map(layout) && layout.use->uv_set != 0);
+}
 
 Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables)
     : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene, tables)) {
@@ -51,16 +64,21 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
                                  material.alpha_mode == AlphaMode::opaque && !material.unlit;
     look.has_open_back = !has_back(material) && !look.shines() && !material.transmission &&
                          !material.diffuse_transmission;
-    const bool is_textured = std::ranges::any_of(
-        look.slots, [](const TextureSlot& slot) { return slot.map != nullptr; });
+    look.is_textured = std::ranges::any_of(look.slots, has_map);
     look.has_back = has_back(material);
     look.is_opaque = !is_thin_glass(material) && material.alpha_mode == AlphaMode::opaque;
-    has_textures_ |= is_textured;
+    has_textures_ |= look.is_textured;
     // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
-    if (is_textured || material.anisotropy || encloses_medium(material)) return;
-    const ShadingPoint anywhere{.at = {}, .look = &look};
-    look.constant.emplace(parameters(anywhere, 3, nullptr), layers(anywhere));
-    look.is_simple = material.alpha_mode == AlphaMode::opaque && !material.unlit && !look.shines();
+    if (look.has_rare_textures() || material.anisotropy || encloses_medium(material)) return;
+    if (look.is_textured && material.specular_glossiness) return;
+    TexturedMaterial white = look;
+    white.slots = {};
+    const ShadingPoint anywhere{.at = {}, .look = &white};
+    look.constant_but_textures.emplace(parameters(anywhere, 3, nullptr), layers(anywhere));
+    const bool may_be_dark = !look.shines() || look[MaterialTexture::emissive].map != nullptr;
+    const bool has_mask = material.alpha_mode == AlphaMode::mask && look.is_textured;
+    look.is_simple =
+        (material.alpha_mode == AlphaMode::opaque || has_mask) && !material.unlit && may_be_dark;
   };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
@@ -115,10 +133,7 @@ void Shading::find_texel_address(ShadingPoint& point) {
   const TexturedMaterial& look = *point.look;
   if (look.layout.map == nullptr) return;
   point.texel_address = look.layout.texel_address(point);
-  for (const MaterialTexture texture : TexturedMaterial::kFrequent) {
-    const TextureSlot& slot = look[texture];
-    if (slot.shares_address) slot.map->fetch(*point.texel_address);
-  }
+  look.fetch(*point.texel_address);
 }
 
 Vec4 Shading::base_color(const ShadingPoint& point) {
@@ -144,18 +159,19 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
          glm::min(color, Vec3(kBrightest)) * Vec3(look[MaterialTexture::emissive].at(point));
 }
 
+void Shading::set_base(const Material& material, const Vec4& base_color,
+                       const Vec4& metallic_roughness, bsdf::Parameters& p) {
+  p.base_color = glm::clamp(Vec3(base_color), Vec3(0), Vec3(1));
+  p.metallic = material.metallic * metallic_roughness.z;
+  p.roughness = material.roughness * metallic_roughness.y;
+}
+
 bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel,
                                      const Medium* outside) {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
-  bsdf::Parameters p{.base_color = glm::clamp(Vec3(base_color(point)), Vec3(0), Vec3(1)),
-                     .metallic = m.metallic,
-                     .roughness = m.roughness};
-  if (look[MaterialTexture::metallic_roughness].map != nullptr) {
-    const Vec4 t = look[MaterialTexture::metallic_roughness].at(point);
-    p.roughness *= t.y;
-    p.metallic *= t.z;
-  }
+  bsdf::Parameters p;
+  set_base(m, base_color(point), look[MaterialTexture::metallic_roughness].at(point), p);
   if (m.ior != 1.5F) p.dielectric.f0 = Vec3(head_on_reflectance(m.ior));
   if (outside != nullptr && refracts(m)) p.dielectric = reflectance_between(look.medium, *outside);
   if (const auto& s = m.specular) {

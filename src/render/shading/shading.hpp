@@ -7,6 +7,7 @@
 #include "render/shading/surface_point.hpp"
 #include "render/textures/texture_map.hpp"
 #include "scene/material_textures.hpp"
+#include "simd/vector_types.hpp"
 
 #include <microtrace/material.hpp>
 #include <microtrace/scene.hpp>
@@ -28,6 +29,7 @@ struct ShadingPoint;
 struct TextureSlot {
   const TextureMap* map = nullptr;  ///< null if there is no texture
   const TextureUse* use = nullptr;
+  float width_scale = 1;  ///< of footprint widths by use->texture_from_uv
   /// True if its texel address equals that of TexturedMaterial::layout.
   bool shares_address = false;
 
@@ -36,6 +38,9 @@ struct TextureSlot {
     return map == nullptr ? Vec4(1) : look_up(point);
   }
   [[nodiscard]] TextureMap::TexelAddress texel_address(const ShadingPoint& point) const;
+  /// The texel address at a point of the mesh's texture coordinates. `width` is the footprint's
+  /// width in these coordinates.
+  [[nodiscard]] TextureMap::TexelAddress texel_address(const Vec2& uv, float width) const;
 
  private:
   [[nodiscard]] Vec4 look_up(const ShadingPoint& point) const;
@@ -67,13 +72,15 @@ struct TexturedMaterial {
   /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
   bool has_constant_emission = false;
   bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
-  /// True if the surface is opaque, emits nothing, and has a constant BSDF on meshes without vertex
-  /// colors.
+  /// True if constant_but_textures is set, and the surface is opaque or masked, and either dark or
+  /// with an emissive texture.
   bool is_simple = false;
-  bool has_back = false;   ///< has_back(*material)
-  bool is_opaque = false;  ///< true if coverage() is 1 everywhere for rays other than camera rays
-  /// The BSDF's input if it is the same everywhere on meshes without vertex colors.
-  std::optional<BsdfInput> constant{};
+  bool is_textured = false;  ///< true if the material has textures
+  bool has_back = false;     ///< has_back(*material)
+  bool is_opaque = false;    ///< true if coverage() is 1 everywhere for rays other than camera rays
+  /// The BSDF's input for white texels, if it depends on nothing but textures of kFrequent with
+  /// shares_address on meshes without vertex colors.
+  std::optional<BsdfInput> constant_but_textures{};
 
   [[nodiscard]] TextureSlot& operator[](MaterialTexture texture) {
     return slots[static_cast<std::size_t>(texture)];
@@ -81,6 +88,11 @@ struct TexturedMaterial {
   [[nodiscard]] const TextureSlot& operator[](MaterialTexture texture) const {
     return slots[static_cast<std::size_t>(texture)];
   }
+
+  /// True if a texture needs a texel address of its own, or is not one of kFrequent.
+  [[nodiscard]] bool has_rare_textures() const;
+  /// Prefetches the texels of all slots with shares_address.
+  void fetch(const TextureMap::TexelAddress& address) const;
 
   [[nodiscard]] bool shines() const { return material->emissive != Vec3(0) && !material->unlit; }
 };
@@ -98,6 +110,11 @@ struct ShadingPoint {
 [[nodiscard]] inline bool has_back(const Material& m) {
   return m.double_sided || encloses_medium(m);
 }
+
+/// The texels of kFrequent for the points of a HitGroup; 1 for textures that a material lacks.
+struct FrequentTexels {
+  std::array<Vec4, kShadingLanes> base_color, metallic_roughness, normal, emissive;
+};
 
 class SharedTables;
 class TextureMaps;
@@ -118,6 +135,10 @@ class Shading {
   /// The shading point in a lane of a group, for which find_points() was called. Its width is 0.
   [[nodiscard]] ShadingPoint point(const HitGroup& group, int lane, const Ray& ray,
                                    const Hit& hit) const;
+  /// Looks up the textures of lanes whose materials are textured and have constant_but_textures.
+  /// `widths` are the footprints' widths in world space.
+  static void look_up(const HitGroup& group, Lanes lanes, const LaneFloats& widths,
+                      FrequentTexels& texels);
 
   /// A point on a mesh triangle without a ray, for evaluating emission. For other shapes, on which
   /// emission is constant, only the side is set.
@@ -127,6 +148,11 @@ class Shading {
   [[nodiscard]] const Material& material(PrimitiveId id) const {
     return *looks_[entries_[primitives_.object_index(id)].look].material;
   }
+
+  /// Sets the parameters that depend on the base color and the texel of the metallic-roughness
+  /// texture.
+  static void set_base(const Material& material, const Vec4& base_color,
+                       const Vec4& metallic_roughness, bsdf::Parameters& p);
 
   /// Computes the texel address that textures share at the point, and prefetches the texels.
   static void find_texel_address(ShadingPoint& point);
@@ -173,7 +199,9 @@ class Shading {
                                             const Medium* outside,
                                             std::optional<BsdfInput>& varying) const {
     const bool has_colors = point.at.mesh != nullptr && !point.at.mesh->colors.empty();
-    if (point.look->constant && !has_colors) return *point.look->constant;
+    const TexturedMaterial& look = *point.look;
+    if (look.constant_but_textures && !look.is_textured && !has_colors)
+      return *look.constant_but_textures;
     return varying.emplace(parameters(point, channel, outside), layers(point));
   }
 

@@ -5,11 +5,12 @@
 namespace microtrace {
 
 TextureMap::TexelAddress TextureSlot::texel_address(const ShadingPoint& point) const {
-  const Vec2 uv = point.at.uv(use->uv_set);
+  return texel_address(point.at.uv(use->uv_set), point.width * point.at.uv_scale);
+}
+
+TextureMap::TexelAddress TextureSlot::texel_address(const Vec2& uv, float width) const {
   const auto& m = use->texture_from_uv;
-  const float scale = std::sqrt(std::abs(m[0].x * m[1].y - m[0].y * m[1].x));
-  return map->texel_address(m[0] * uv.x + m[1] * uv.y + m[2],
-                            point.width * point.at.uv_scale * scale);
+  return map->texel_address(m[0] * uv.x + m[1] * uv.y + m[2], width * width_scale);
 }
 
 Vec4 TextureSlot::look_up(const ShadingPoint& point) const {
@@ -26,7 +27,10 @@ TextureSlot TextureMaps::slot(const TextureUse& use, ColorEncoding encoding) {
     TextureMap map = tables_.texture_map(scene_.images[*texture.image], texture.sampler, encoding);
     known = maps_.emplace(key, std::move(map)).first;
   }
-  return {.map = &known->second, .use = &use};
+  const auto& m = use.texture_from_uv;
+  return {.map = &known->second,
+          .use = &use,
+          .width_scale = std::sqrt(std::abs(m[0].x * m[1].y - m[0].y * m[1].x))};
 }
 
 TexturedMaterial TextureMaps::slots(const Material& m) {
