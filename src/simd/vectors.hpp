@@ -61,6 +61,18 @@ inline Float<N> with_sign_of(const Float<N>& a, const Float<N>& b) {
   return reinterpreted<Float<N>>(reinterpreted<Int<N>>(a) ^ (reinterpreted<Int<N>>(b) & INT32_MIN));
 }
 
+/// Returns a where the mask is true, otherwise b, without a branch also for one lane.
+template <int N, class Mask>
+inline Float<N> chosen(const Mask& mask, const Float<N>& a, const Float<N>& b) {
+  if constexpr (N == 1) {
+    const std::int32_t bits = -static_cast<std::int32_t>(mask);
+    return reinterpreted<float>((reinterpreted<std::int32_t>(a) & bits) |
+                                (reinterpreted<std::int32_t>(b) & ~bits));
+  } else {
+    return mask ? a : b;
+  }
+}
+
 /// Rounds toward zero to integers. Each lane must be in the range of the integers.
 template <int N>
 inline Int<N> truncated(const Float<N>& a) {

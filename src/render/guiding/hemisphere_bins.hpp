@@ -57,7 +57,7 @@ class HemisphereBins {
     if (!(height > 0)) return -1;
     const float turn = atan2_revolutions(d[(about_.axis + 2) % 3], d[(about_.axis + 1) % 3]);
     const int row = std::min(static_cast<int>(height * kRows), kRows - 1);
-    const int column = static_cast<int>(chosen(turn < 0, turn + 1, turn) * kColumns);
+    const int column = static_cast<int>(chosen<1>(turn < 0, turn + 1, turn) * kColumns);
     return row * kColumns + std::min(column, kColumns - 1);
   }
 

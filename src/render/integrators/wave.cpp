@@ -122,13 +122,23 @@ void Wave::step(std::size_t first) {
   hits.hit = 0;
   for (std::size_t lane = 0; lane < size; ++lane)
     hits.hit |= Lanes{ids[lane] != kNoPrimitive} << lane;
+  Lanes escaped = 0;
   for (Lanes missed = ((Lanes{1} << size) - 1) & ~hits.hit; missed != 0; missed &= missed - 1) {
-    const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(missed));
+    const int lane = std::countr_zero(missed);
+    const std::size_t i = first + static_cast<std::size_t>(lane);
     left_bodies_.clear();
-    if (paths_->media[i] == 0 || cross_medium(i, paths_->ray(i), std::nullopt, 0)) escape(i);
+    if (paths_->media[i] == 0 || cross_medium(i, paths_->ray(i), std::nullopt, 0))
+      escaped |= Lanes{1} << lane;
   }
   group.vertices = group.mapped = 0;
-  if (hits.hit == 0) return;
+  if (hits.hit != 0) escaped |= meet_surfaces(first);
+  if (escaped != 0) escape(first, escaped);
+}
+
+Lanes Wave::meet_surfaces(std::size_t first) {
+  VertexGroup& group = vertices_.group();
+  HitGroup& hits = group.hits;
+  const auto ids = std::span(hits_).subspan(first).first<kShadingLanes>();
   for (int axis = 0; axis < 3; ++axis) {
     std::copy_n(paths_->o[axis] + first, kShadingLanes, hits.lanes.o[axis]);
     std::copy_n(paths_->d[axis] + first, kShadingLanes, hits.lanes.d[axis]);
@@ -137,8 +147,12 @@ void Wave::step(std::size_t first) {
   if (step_.depth == 1 && shading_->has_textures()) widen(first);
   shading_->find_points(*kernels_, ids, hits);
   const Lanes simple = add_simple(first);
-  for (Lanes rest = hits.hit & ~simple; rest != 0; rest &= rest - 1)
-    step_slowly(first, std::countr_zero(rest));
+  Lanes escaped = 0;
+  for (Lanes rest = hits.hit & ~simple; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    if (!step_slowly(first, lane)) escaped |= Lanes{1} << lane;
+  }
+  return escaped;
 }
 
 void Wave::widen(std::size_t first) {
@@ -228,7 +242,7 @@ void Wave::prepare(std::size_t i, ShadingPoint& point) const {
   Shading::find_texel_address(point);
 }
 
-void Wave::step_slowly(std::size_t first, int lane) {
+bool Wave::step_slowly(std::size_t first, int lane) {
   const std::size_t i = first + static_cast<std::size_t>(lane);
   PathColumns& paths = *paths_;
   const HitGroup& hits = vertices_.group().hits;
@@ -245,16 +259,17 @@ void Wave::step_slowly(std::size_t first, int lane) {
   left_bodies_.clear();
   for (; hit && (passes_hidden_surface(i, point) || !stops(i, point, layer)); ++layer)
     hit = next(i, *hit, point);
-  if (paths.media[i] != 0 && !cross_medium(i, ray, hit, point.at.distance)) return;
-  if (!hit) return escape(i);
+  if (paths.media[i] != 0 && !cross_medium(i, ray, hit, point.at.distance)) return true;
+  if (!hit) return false;
   if (looks_behind() && Shading::lets_light_in(point) && (layer > 0 || may_get_light(i))) {
     const Behind behind = look_behind(i, *hit, point, layer);
-    if (behind.is_open) return escape(i);
+    if (behind.is_open) return false;
     if (behind.hit) hit = behind.hit, point = behind.point;
   }
   if (from_camera) alphas_[paths.slot[i]] = 1;
   add_emission(i, *hit, point);
   if (!is_last(i) && !point.look->material->unlit) put_vertex(i, lane, *hit, point);
+  return true;
 }
 
 int Wave::channel_of(const Material& material, std::size_t i) const {

@@ -47,6 +47,9 @@ class Wave {
   void step();
   /// Advances the paths from `first` on, up to kShadingLanes, by one bounce.
   void step(std::size_t first);
+  /// Advances the paths from `first` on that hit something. Returns the lanes of those that leave
+  /// the scene nevertheless.
+  [[nodiscard]] Lanes meet_surfaces(std::size_t first);
   /// Sets the footprints of the camera paths from `first` on that hit something.
   void widen(std::size_t first);
   /// Sets the vertices of the group's lanes whose surfaces need no further tests. Returns these
@@ -55,8 +58,9 @@ class Wave {
   /// Sets what textures determine in these lanes. Returns the lanes that need no further tests,
   /// which neither emit nor are cut out by a mask.
   [[nodiscard]] Lanes add_textures(Lanes lanes);
-  /// Advances the path in a lane, which needs further tests.
-  void step_slowly(std::size_t first, int lane);
+  /// Advances the path in a lane, which needs further tests. Returns false if the path leaves the
+  /// scene.
+  [[nodiscard]] bool step_slowly(std::size_t first, int lane);
   /// Moves path i through its medium along its ray. Returns true if the path reaches the hit. If it
   /// is scattered before, adds its next ray.
   [[nodiscard]] bool cross_medium(std::size_t i, const Ray& ray, const std::optional<Hit>& hit,
@@ -87,8 +91,8 @@ class Wave {
                                    std::uint32_t layer);
   /// Adds the light that the surface emits toward path i.
   void add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point);
-  /// Adds the light of the environment that path i reaches.
-  void escape(std::size_t i);
+  /// Adds the light of the environment that the paths in these lanes reach.
+  void escape(std::size_t first, Lanes lanes);
   /// Finds the y coordinate of the ground, if there is one, in scene coordinates.
   [[nodiscard]] std::optional<float> find_ground() const;
   /// Samples the light at the point where the ray of path i meets the ground, if it does.
@@ -152,6 +156,7 @@ class Wave {
   std::array<Vec3, kRandomBatch> colors_;
   std::array<float, kRandomBatch> alphas_;
   FrequentTexels texels_;
+  Lighting::Escapes escapes_;
   // The input of a BSDF with textures. A local variable would be cleared for each vertex.
   std::optional<BsdfInput> varying_;
 };

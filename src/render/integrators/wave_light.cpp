@@ -2,7 +2,10 @@
 
 #include "render/integrators/power_heuristic.hpp"
 #include "render/integrators/wave.hpp"
+#include "render/kernels/lane_access.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -22,19 +25,33 @@ void Wave::add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point
   colors_[paths.slot[i]] += vector_of(paths.throughput, i) * emission * weight;
 }
 
-void Wave::escape(std::size_t i) {
+void Wave::escape(std::size_t first, Lanes lanes) {
   const PathColumns& paths = *paths_;
-  const Vec3 wi = unit<1>(vector_of(paths.d, i));
-  const std::uint32_t slot = paths.slot[i];
-  if (const float pdf = paths.pdf[i]; pdf > 0) {
-    const EnvironmentLight::Lookup light = lighting_->environment(paths.from(i), wi);
-    const float other = paths.is_scattered[i] != 0 ? 0 : light.pdf;
-    colors_[slot] += vector_of(paths.throughput, i) * light.radiance * power_heuristic(pdf, other);
-  } else if (lighting_->is_seen()) {  // otherwise the background is composited later
-    colors_[slot] += vector_of(paths.throughput, i) * lighting_->environment(wi);
-    alphas_[slot] = 1;
+  const bool from_camera = step_.depth == 1;
+  for (Lanes rest = from_camera && ground_ ? lanes : 0; rest != 0; rest &= rest - 1)
+    meet_ground(first + static_cast<std::size_t>(std::countr_zero(rest)));
+  // An environment that is not seen is composited later.
+  if (!lighting_->has_environment() || (from_camera && !lighting_->is_seen())) return;
+  auto& [lights, origins] = escapes_;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::copy_n(paths.d[axis] + first, kShadingLanes, lights.d[axis]);
+    std::copy_n(paths.from_p[axis] + first, kShadingLanes, origins.p[axis]);
+    std::copy_n(paths.from_n[axis] + first, kShadingLanes, origins.n[axis]);
   }
-  if (ground_ && paths.pdf[i] == 0) meet_ground(i);
+  lighting_->environment(*kernels_, lanes, from_camera, escapes_);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    const std::size_t i = first + static_cast<std::size_t>(lane);
+    const std::uint32_t slot = paths.slot[i];
+    const Vec3 light = vector_of(paths.throughput, i) * got(lights.radiance, lane);
+    if (from_camera) {
+      colors_[slot] += light;
+      alphas_[slot] = 1;
+      continue;
+    }
+    const float other = paths.is_scattered[i] != 0 ? 0 : lights.pdf[lane];
+    colors_[slot] += light * power_heuristic(paths.pdf[i], other);
+  }
 }
 
 std::optional<float> Wave::find_ground() const {

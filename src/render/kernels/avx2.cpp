@@ -7,6 +7,7 @@
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
+#include "render/lights/map_light.hpp"
 
 namespace microtrace {
 const ShadingKernels kAvx2Shading{"avx2",
@@ -18,5 +19,10 @@ const ShadingKernels kAvx2Shading{"avx2",
                                   find_normals<8>,
                                   choose_lights<8, kShadingLanes>,
                                   sample_triangles<8, kShadingLanes>,
+                                  normalize<8, kShadingLanes>,
+                                  find_map_places<8, kShadingLanes>,
+                                  look_up_map<8, kShadingLanes>,
+                                  sample_map<8, kShadingLanes>,
+                                  environment_probabilities<8, kShadingLanes>,
                                   scatter<8>};
 }

@@ -7,6 +7,7 @@
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
+#include "render/lights/map_light.hpp"
 
 namespace microtrace {
 const ShadingKernels kAvx512Shading{"avx512",
@@ -18,5 +19,10 @@ const ShadingKernels kAvx512Shading{"avx512",
                                     find_normals<16>,
                                     choose_lights<16, kShadingLanes>,
                                     sample_triangles<16, kShadingLanes>,
+                                    normalize<16, kShadingLanes>,
+                                    find_map_places<16, kShadingLanes>,
+                                    look_up_map<16, kShadingLanes>,
+                                    sample_map<16, kShadingLanes>,
+                                    environment_probabilities<16, kShadingLanes>,
                                     scatter<16>};
 }

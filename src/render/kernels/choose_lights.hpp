@@ -67,6 +67,16 @@ void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lane
   __builtin_memcpy(lanes.light + i, chosen.light, sizeof chosen.light);
 }
 
+/// Sets the probabilities with which choose_lights() selects the environment.
+template <int N, int width>
+void environment_probabilities(const LightChoiceSetup& setup, LightChoices<width>& lanes) {
+  for (int i = 0; i < width; i += N) {
+    const Floats3<N> p = setup.space.point<N>(load3<N>(lanes.p, i)), n = load3<N>(lanes.n, i);
+    store<N>(lanes.probability + i,
+             kind_probabilities<N>(setup, p, n, load<N>(lanes.share + i)).environment);
+  }
+}
+
 /// Selects lights for all points.
 template <int N, int width>
 void choose_lights(const LightChoiceSetup& setup, LightChoices<width>& lanes) {

@@ -8,6 +8,7 @@
 #include "render/bsdf/features.hpp"
 #include "render/kernels/film_lanes.hpp"
 #include "render/kernels/light_lanes.hpp"
+#include "render/kernels/map_lanes.hpp"
 #include "render/kernels/surface_lanes.hpp"
 
 #include <cstddef>
@@ -110,6 +111,15 @@ struct ShadingKernels {
                            const TriangleChoices<kShadingLanes>& choices,
                            const LightChoices<kShadingLanes>& points,
                            LightSamples<kShadingLanes>& samples);
+  /// Makes these vectors unit vectors.
+  void (*normalize)(LaneFloats (&vectors)[3]);
+  /// See map_light.hpp.
+  void (*find_map_places)(const MapShape& shape, MapLanes<kShadingLanes>& lanes);
+  void (*look_up_map)(const MapShape& shape, MapLanes<kShadingLanes>& lanes);
+  void (*sample_map)(const MapShape& shape, MapLanes<kShadingLanes>& lanes);
+  /// Sets the probabilities of selecting the environment.
+  void (*environment_probabilities)(const LightChoiceSetup& setup,
+                                    LightChoices<kShadingLanes>& lanes);
   void (*scatter)(const ScatterSetup& setup, ScatterLanes& lanes);
 };
 

@@ -7,6 +7,7 @@
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
+#include "render/lights/map_light.hpp"
 
 namespace microtrace {
 const ShadingKernels kPortableShading{"portable",
@@ -18,5 +19,10 @@ const ShadingKernels kPortableShading{"portable",
                                       find_normals<4>,
                                       choose_lights<4, kShadingLanes>,
                                       sample_triangles<4, kShadingLanes>,
+                                      normalize<4, kShadingLanes>,
+                                      find_map_places<4, kShadingLanes>,
+                                      look_up_map<4, kShadingLanes>,
+                                      sample_map<4, kShadingLanes>,
+                                      environment_probabilities<4, kShadingLanes>,
                                       scatter<4>};
 }

@@ -1,11 +1,14 @@
 #include "render/lights/environment_light.hpp"
 
+#include "render/kernels/dispatch.hpp"
+#include "render/kernels/lane_access.hpp"
+#include "render/lights/map_light.hpp"
 #include "render/lights/studio.hpp"
 #include "render/luminance.hpp"
 #include "scene/math/revolutions.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -21,17 +24,6 @@ namespace {
 constexpr float kGreatestIntensity = kBrightest / 0x1p30F;
 
 constexpr float kUniformPdf = static_cast<float>(0.25 / std::numbers::pi);
-
-/// Clamps x to [0, size). NaN gives 0.
-float clamped(float x, float size) {
-  if (!(x >= 0)) return 0;
-  return x < size ? x : std::nextafter(size, 0.0F);
-}
-
-/// The distance of a direction's end point from the y axis.
-float axis_range_of(const Vec3& d) {
-  return std::sqrt(d.x * d.x + d.z * d.z);
-}
 
 /// Converts an angle to the fractional part of its revolutions, in [0, 1).
 float part_of_turn(double radians) {
@@ -60,20 +52,20 @@ std::shared_ptr<const MapTables> tables_of(const Environment& environment) {
 
 EnvironmentLight::EnvironmentLight(const Environment& environment,
                                    std::shared_ptr<const MapTables> tables)
-    : tables_(std::move(tables)),
-      intensity_(std::min(environment.intensity, kGreatestIntensity)),
-      turn_(part_of_turn(environment.rotation)),
-      back_turn_(part_of_turn(-std::numbers::pi - environment.rotation)) {
+    : tables_(std::move(tables)), kernels_(&kShadingKernels.best()) {
+  const float intensity = std::min(environment.intensity, kGreatestIntensity);
   if (tables_) {
     const MapDistribution& distribution = tables_->distribution;
-    width_ = static_cast<float>(tables_->map->width);
-    height_ = static_cast<float>(tables_->map->height);
-    mean_luminance_ = static_cast<float>(distribution.mean_luminance() * double{intensity_});
-    sampled_luminance_ = static_cast<float>(distribution.sampled_luminance() * double{intensity_});
+    shape_ = distribution.shape();
+    shape_.intensity = intensity;
+    shape_.turn = part_of_turn(environment.rotation);
+    shape_.back_turn = part_of_turn(-std::numbers::pi - environment.rotation);
+    mean_luminance_ = static_cast<float>(distribution.mean_luminance() * double{intensity});
+    sampled_luminance_ = static_cast<float>(distribution.sampled_luminance() * double{intensity});
   } else {
-    uniform_ = glm::min(intensity_ * std::get<Vec3>(environment.content), Vec3(kBrightest));
+    uniform_ = glm::min(intensity * std::get<Vec3>(environment.content), Vec3(kBrightest));
     mean_luminance_ = luminance(uniform_);
-    sampled_luminance_ = mean_luminance_ * MapDistribution::kLeastPart;
+    sampled_luminance_ = mean_luminance_ * kLeastMapPart;
   }
 }
 
@@ -82,33 +74,35 @@ ImageSize EnvironmentLight::map_size() const {
   return {.width = tables_->map->width, .height = tables_->map->height};
 }
 
-MapPlace EnvironmentLight::place_of(const Vec3& d, float axis_range) const {
-  const float turns = atan2_revolutions(d.z, d.x) + (0.5F + turn_);  // in [0, 2)
-  const float u = turns - chosen(turns >= 1, 1, 0);
-  // In these coordinates, the center of pixel k is at k + 1, which keeps x positive.
-  const float x = clamped(u * width_, width_) + 0.5F;
-  // atan2 is precise at the poles, unlike acos(y).
-  const float y = clamped(2 * height_ * atan2_revolutions(axis_range, d.y), height_) + 0.5F;
-  const auto column = static_cast<std::uint32_t>(x), line = static_cast<std::uint32_t>(y);
-  return {.column = column < tables_->map->width ? column : 0,
-          .line = line,
-          .x = x - static_cast<float>(column),
-          .y = y - static_cast<float>(line)};
-}
-
 EnvironmentLight::Lookup EnvironmentLight::lookup(const Vec3& direction) const {
   if (!tables_) return {.radiance = uniform_, .pdf = kUniformPdf};
-  const float axis_range = axis_range_of(direction);
-  const MapPlace place = place_of(direction, axis_range);
-  const auto corners = corners_of(*tables_->map, place);
-  return {.radiance = intensity_ * bilinear(corners, place.x, place.y),
-          .pdf = tables_->distribution.pdf(place, corners, axis_range)};
+  MapLanes<1> lanes;
+  put(lanes.d, 0, direction);
+  find_map_places<1>(shape_, lanes);
+  tables_->distribution.put_cell(0, lanes);
+  look_up_map<1>(shape_, lanes);
+  return {.radiance = got(lanes.radiance, 0), .pdf = lanes.pdf[0]};
 }
 
 Vec3 EnvironmentLight::radiance(const Vec3& direction) const {
-  if (!tables_) return uniform_;
-  const MapPlace place = place_of(direction, axis_range_of(direction));
-  return intensity_ * bilinear(corners_of(*tables_->map, place), place.x, place.y);
+  return lookup(direction).radiance;
+}
+
+void EnvironmentLight::look_up(Lanes lanes, MapLanes<kShadingLanes>& at) const {
+  if (!tables_) {
+    for (int axis = 0; axis < 3; ++axis) std::ranges::fill(at.radiance[axis], uniform_[axis]);
+    std::ranges::fill(at.pdf, kUniformPdf);
+    return;
+  }
+  kernels_->find_map_places(shape_, at);
+  for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    tables_->distribution.prefetch(static_cast<std::uint32_t>(at.column[lane]),
+                                   static_cast<std::uint32_t>(at.line[lane]));
+  }
+  for (Lanes rest = lanes; rest != 0; rest &= rest - 1)
+    tables_->distribution.put_cell(std::countr_zero(rest), at);
+  kernels_->look_up_map(shape_, at);
 }
 
 void EnvironmentLight::sample(std::span<const Vec2> u, std::span<Sample> samples) const {
@@ -116,9 +110,14 @@ void EnvironmentLight::sample(std::span<const Vec2> u, std::span<Sample> samples
     for (std::size_t i = 0; i < u.size(); ++i) samples[i] = uniform_sample(u[i]);
     return;
   }
-  std::array<MapDistribution::Point, MapDistribution::kMostSamples> points;
-  tables_->distribution.sample(u, points);
-  for (std::size_t i = 0; i < u.size(); ++i) samples[i] = sample_at(points[i]);
+  MapLanes<kShadingLanes> lanes{};
+  tables_->distribution.select(u, lanes);
+  kernels_->sample_map(shape_, lanes);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const auto lane = static_cast<int>(i);
+    samples[i] = {
+        .wi = got(lanes.d, lane), .radiance = got(lanes.radiance, lane), .pdf = lanes.pdf[lane]};
+  }
 }
 
 EnvironmentLight::Sample EnvironmentLight::uniform_sample(const Vec2& u) const {
@@ -127,18 +126,6 @@ EnvironmentLight::Sample EnvironmentLight::uniform_sample(const Vec2& u) const {
   return {.wi = {r * angle.cosine, 1 - 2 * h, r * angle.sine},
           .radiance = uniform_,
           .pdf = kUniformPdf};
-}
-
-EnvironmentLight::Sample EnvironmentLight::sample_at(const MapDistribution::Point& point) const {
-  const MapPlace& place = point.place;
-  const float column = static_cast<float>(place.column) + (place.x - 0.5F);
-  float turns = column / width_ + back_turn_;  // in [-1/2, 2]
-  turns -= chosen(turns >= 1, 1, 0);
-  turns += chosen(turns < 0, 1, 0);
-  const SineCosine angle = sin_cos_revolutions(turns);
-  return {.wi = {point.axis_range * angle.cosine, point.height, point.axis_range * angle.sine},
-          .radiance = intensity_ * bilinear(corners_of(*tables_->map, place), place.x, place.y),
-          .pdf = point.pdf};
 }
 
 }  // namespace microtrace

@@ -2,7 +2,9 @@
 /// Environment lights: lookup of radiance, and sampling of directions.
 
 #include "base/memory_account.hpp"
+#include "render/kernels/kernel.hpp"
 #include "render/lights/map_distribution.hpp"
+#include "simd/vector_types.hpp"
 
 #include <microtrace/camera.hpp>
 #include <microtrace/environment.hpp>
@@ -53,8 +55,7 @@ class EnvironmentLight {
     float pdf;      ///< the pdf of the unrounded wi; positive
   };
   /// Samples directions approximately in proportion to their radiance. Each element of u is in [0,
-  /// 1)^2. Takes up to MapDistribution::kMostSamples elements at a time, which is faster than one
-  /// by one.
+  /// 1)^2. Takes up to kShadingLanes elements at a time, which is faster than one by one.
   void sample(std::span<const Vec2> u, std::span<Sample> samples) const;
 
   struct Lookup {
@@ -62,6 +63,8 @@ class EnvironmentLight {
     float pdf;  ///< pdf of sample(), per steradian; never 0
   };
   [[nodiscard]] Lookup lookup(const Vec3& direction) const;
+  /// Sets the radiance and the pdf of the directions in these lanes.
+  void look_up(Lanes lanes, MapLanes<kShadingLanes>& at) const;
 
   /// The mean luminance over all directions, in the unit of radiance().
   [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
@@ -72,15 +75,10 @@ class EnvironmentLight {
 
  private:
   [[nodiscard]] Sample uniform_sample(const Vec2& u) const;
-  [[nodiscard]] Sample sample_at(const MapDistribution::Point& point) const;
-  [[nodiscard]] MapPlace place_of(const Vec3& direction, float axis_range) const;
-
   Vec3 uniform_{0};
   std::shared_ptr<const MapTables> tables_{};  ///< null if the radiance is uniform_
-  float width_ = 0, height_ = 0;               ///< size of the map
-  float intensity_;
-  float turn_;       ///< added to a direction's longitude, in [0, 1)
-  float back_turn_;  ///< added to the map's u to get a longitude, in [0, 1)
+  const ShadingKernels* kernels_;
+  MapShape shape_{};
   float mean_luminance_ = 0, sampled_luminance_ = 0;
 };
 

@@ -2,9 +2,11 @@
 
 #include "render/bsdf/ggx.hpp"
 #include "render/kernels/lane_access.hpp"
+#include "render/lights/map_light.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 namespace microtrace {
@@ -37,7 +39,7 @@ float Lighting::share(const EnvironmentGuide::Cell* cell) const {
   // The brightest parts of a map may be visible even if little of it is.
   if (cell == nullptr || !environment_->is_uniform()) return 1;
   constexpr float kLeast = 0x1p-6F;
-  return std::max(cell->openness(), kLeast) / MapDistribution::kLeastPart;
+  return std::max(cell->openness(), kLeast) / kLeastMapPart;
 }
 
 float Lighting::pdf(const EnvironmentGuide::Cell* cell, const Vec3& wi, float own) const {
@@ -121,14 +123,26 @@ void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices
     kernels.sample_triangles(emitters_.triangles(), triangles, points, samples);
 }
 
-EnvironmentLight::Lookup Lighting::environment(const LightSampleContext& context,
-                                               const Vec3& wi) const {
-  if (!samples_environment()) return {.radiance = environment(wi), .pdf = 0};
-  const EnvironmentGuide::Cell* own_cell = cell(context.p, context.n);
-  if (!samples_environment(own_cell)) return {.radiance = environment(wi), .pdf = 0};
-  EnvironmentLight::Lookup look = environment_->lookup(wi);
-  look.pdf = pdf(own_cell, wi, look.pdf) * probabilities(context, own_cell).environment;
-  return look;
+void Lighting::environment(const ShadingKernels& kernels, Lanes lanes, bool from_camera,
+                           Escapes& escapes) const {
+  auto& [lights, origins] = escapes;
+  kernels.normalize(lights.d);
+  environment_->look_up(lanes, lights);
+  if (from_camera) return;
+  if (!samples_environment()) {
+    std::ranges::fill(lights.pdf, 0.0F);
+    return;
+  }
+  std::ranges::fill(origins.share, 1.0F);
+  for (Lanes rest = guide_ ? lanes : 0; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    const auto* own_cell = cell(got(origins.p, lane), got(origins.n, lane));
+    origins.share[lane] = share(own_cell);
+    lights.pdf[lane] =
+        samples_environment(own_cell) ? pdf(own_cell, got(lights.d, lane), lights.pdf[lane]) : 0;
+  }
+  kernels.environment_probabilities(setup_, origins);
+  for (int lane = 0; lane < kShadingLanes; ++lane) lights.pdf[lane] *= origins.probability[lane];
 }
 
 float Lighting::emitter_pdf(PrimitiveId id, const LightSampleContext& context, float distance,

@@ -57,9 +57,16 @@ class Lighting {
   [[nodiscard]] Vec3 environment(const Vec3& wi) const {
     return environment_ ? environment_->radiance(wi) : Vec3(0);
   }
-  /// The radiance, and the pdf of this direction if sample() samples a light at the context.
-  [[nodiscard]] EnvironmentLight::Lookup environment(const LightSampleContext& context,
-                                                     const Vec3& wi) const;
+  [[nodiscard]] bool has_environment() const { return environment_ != nullptr; }
+  /// Rays that leave the scene.
+  struct Escapes {
+    MapLanes<kShadingLanes> lights{};       ///< d holds the directions, of any length
+    LightChoices<kShadingLanes> origins{};  ///< p and n are LightSampleContexts
+  };
+  /// Makes the directions in these lanes unit vectors, and sets the environment's radiance and the
+  /// pdf with which sample() would sample them. Leaves out the pdf for rays from the camera.
+  void environment(const ShadingKernels& kernels, Lanes lanes, bool from_camera,
+                   Escapes& escapes) const;
 
   /// The pdf with which sample() would sample the point of an emissive surface that a path from the
   /// context hits after `distance`. `cosine` is the cosine of the angle between the path and the

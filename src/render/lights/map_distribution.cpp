@@ -1,7 +1,7 @@
 #include "render/lights/map_distribution.hpp"
 
+#include "render/lights/map_light.hpp"
 #include "render/luminance.hpp"
-#include "scene/math/revolutions.hpp"
 #include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
@@ -52,13 +52,6 @@ std::size_t entry_of(std::uint32_t number, std::uint32_t count) {
   return std::uint64_t{number} * count >> 24U;
 }
 
-/// Inverts the cumulative distribution of a pdf on [0, 1] that is linear from a to b. u must be
-/// positive.
-float inverted(float a, float b, float u) {
-  const float root = std::sqrt(a * a + u * (b * b - a * a));
-  return std::min(u * (a + b) / (a + root), 1.0F);
-}
-
 }  // namespace
 
 MapDistribution::MapDistribution(const RadianceMap& map)
@@ -72,8 +65,19 @@ MapDistribution::MapDistribution(const RadianceMap& map)
       column_guide_(std::size_t{height_ + 1} * width_) {
   const double step = std::numbers::pi / height_;
   const double half = sin_radians(step / 4);
-  turns_per_row_ = static_cast<float>(0.5 / height_);
-  polar_h_ = static_cast<float>(half * half);
+  const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
+  shape_ = {.width = width,
+            .height = height,
+            .below_width = std::nextafter(width, 0.0F),
+            .below_height = std::nextafter(height, 0.0F),
+            .columns = static_cast<std::int32_t>(width_),
+            .lines = static_cast<std::int32_t>(height_),
+            .turn = 0,
+            .back_turn = 0.5F,
+            .intensity = 1,
+            .turns_per_row = static_cast<float>(0.5 / height_),
+            .polar_h = static_cast<float>(half * half),
+            .weight_scale = 0};
   for (std::uint32_t line = 0; line <= height_; ++line) {
     const auto sine = [&](double y) { return static_cast<float>(sin_radians(step * y)); };
     rows_[line].sines = {sine(line - 0.5), sine(height_ - line - 0.5)};
@@ -105,7 +109,7 @@ void MapDistribution::find_mean() {
   }
   mean_luminance_ = sum / (2 * width_);
   // Treats smaller means as 0, because their inverses might exceed the range of float.
-  scale_ = mean_luminance_ > 1e-30 ? static_cast<float>(1 / mean_luminance_) : 0;
+  shape_.weight_scale = mean_luminance_ > 1e-30 ? static_cast<float>(1 / mean_luminance_) : 0;
 }
 
 std::vector<double> MapDistribution::make_columns() {
@@ -115,8 +119,11 @@ std::vector<double> MapDistribution::make_columns() {
     row.floor = 0;
     double sum = 0;
     for (std::uint32_t column = 0; column < width_; ++column) {
-      const auto w = weights(row, corners_of(map_, {.column = column, .line = line}));
-      cells[column] = double{0.25F * ((w[0] + w[1]) + (w[2] + w[3]))};
+      const auto corners = corners_of(map_, column, line);
+      const auto weight = [&](std::size_t i) {
+        return map_weight<1>(luminance(corners[i]), shape_.weight_scale) * row.sines[i / 2];
+      };
+      cells[column] = double{0.25F * ((weight(0) + weight(1)) + (weight(2) + weight(3)))};
       sum += cells[column];
     }
     row_weights[line] = sum / width_;
@@ -150,20 +157,6 @@ void MapDistribution::make_rows(std::vector<double> weights) {
   }
 }
 
-float MapDistribution::pdf(const MapPlace& place, const std::array<Vec3, 4>& corners,
-                           float axis_range) const {
-  const Row& row = rows_[place.line];
-  const std::uint32_t* bounds = &columns_[std::size_t{place.line} * (width_ + 1) + place.column];
-  return pdf(row, bounds[1] - bounds[0], place, weights(row, corners), axis_range);
-}
-
-float MapDistribution::pdf(const Row& row, std::uint32_t count, const MapPlace& place,
-                           const std::array<float, 4>& w, float axis_range) const {
-  const float mean = 0.25F * ((w[0] + w[1]) + (w[2] + w[3]));
-  const float cell = static_cast<float>(count) * row.pdf;
-  return cell * bilinear(w, place.x, place.y) / (is_polar(place.line) ? mean : mean * axis_range);
-}
-
 template <class Index>
 MapDistribution::Found MapDistribution::find(const std::uint32_t* bounds, Index start,
                                              std::uint32_t number) {
@@ -175,59 +168,37 @@ MapDistribution::Found MapDistribution::find(const std::uint32_t* bounds, Index 
   while (bounds[i + 1] <= number) ++i;
   const std::uint32_t count = bounds[i + 1] - bounds[i];
   const float offset = static_cast<float>(number - bounds[i]) + 0.5F;
-  return {.index = i, .count = count, .place = offset / static_cast<float>(count)};
+  return {.index = i, .place = offset / static_cast<float>(count)};
+}
+
+void MapDistribution::prefetch(std::uint32_t column, std::uint32_t line) const {
+  for (const Vec3* row : rows_of(map_, line)) __builtin_prefetch(row + column);
+  __builtin_prefetch(columns_of(line) + column);
 }
 
 // Works in steps, each of which prefetches the data of the next step, because the tables and the
 // map don't fit into the fastest caches.
-void MapDistribution::sample(std::span<const Vec2> u, std::span<Point> points) const {
-  std::array<Found, kMostSamples> lines, columns;
-  std::array<const std::uint16_t*, kMostSamples> guides;
+void MapDistribution::select(std::span<const Vec2> u, MapLanes<kShadingLanes>& lanes) const {
+  std::array<std::uint32_t, kShadingLanes> lines;
+  std::array<const std::uint16_t*, kShadingLanes> guides;
   for (std::size_t i = 0; i < u.size(); ++i) {
     const std::uint32_t number = number_of(u[i].y);
-    lines[i] = find(row_bounds_.data(), row_guide_[entry_of(number, height_ + 1)], number);
+    const Found line = find(row_bounds_.data(), row_guide_[entry_of(number, height_ + 1)], number);
+    lines[i] = line.index;
+    lanes.line[i] = static_cast<std::int32_t>(line.index);
+    lanes.y[i] = line.place;
     guides[i] =
-        &column_guide_[std::size_t{lines[i].index} * width_ + entry_of(number_of(u[i].x), width_)];
+        &column_guide_[std::size_t{line.index} * width_ + entry_of(number_of(u[i].x), width_)];
     __builtin_prefetch(guides[i]);
   }
-  const auto bounds = [&](std::size_t i) {
-    return &columns_[std::size_t{lines[i].index} * (width_ + 1)];
-  };
-  for (std::size_t i = 0; i < u.size(); ++i) __builtin_prefetch(bounds(i) + *guides[i]);
+  for (std::size_t i = 0; i < u.size(); ++i) __builtin_prefetch(columns_of(lines[i]) + *guides[i]);
   for (std::size_t i = 0; i < u.size(); ++i) {
-    columns[i] = find(bounds(i), *guides[i], number_of(u[i].x));
-    for (const Vec3* row : rows_of(map_, lines[i].index))
-      __builtin_prefetch(row + columns[i].index);
+    const Found column = find(columns_of(lines[i]), *guides[i], number_of(u[i].x));
+    lanes.column[i] = static_cast<std::int32_t>(column.index);
+    lanes.x[i] = column.place;
+    for (const Vec3* row : rows_of(map_, lines[i])) __builtin_prefetch(row + column.index);
   }
-  for (std::size_t i = 0; i < u.size(); ++i) points[i] = point_in(lines[i], columns[i]);
-}
-
-MapDistribution::Point MapDistribution::point_in(const Found& line, const Found& column) const {
-  const Row& row = rows_[line.index];
-  Point point{.place = {.column = column.index, .line = line.index}};
-  const auto w = weights(row, corners_of(map_, point.place));
-  const bool is_south = 2 * line.index > height_;
-  if (is_polar(line.index)) {
-    // Polar cells are uniform in solid angle, so h = (1 - cos(theta)) / 2 is uniform. It is
-    // measured from the nearer pole for precision.
-    const float h = (is_south ? 1 - line.place : line.place) * polar_h_;
-    point.height = 1 - 2 * h;
-    point.axis_range = 2 * std::sqrt(h * (1 - h));
-    point.place.y = line.place;
-  } else {
-    const float y = inverted(w[0] + w[1], w[2] + w[3], line.place);
-    const auto rows = static_cast<float>(is_south ? height_ - line.index : line.index);
-    const float turns = (rows + (is_south ? 0.5F - y : y - 0.5F)) * turns_per_row_;
-    const SineCosine angle = sin_cos_revolutions(turns);
-    point.height = angle.cosine;
-    point.axis_range = angle.sine;
-    point.place.y = y;
-  }
-  if (is_south) point.height = -point.height;
-  const float y = point.place.y;
-  point.place.x = inverted((1 - y) * w[0] + y * w[2], (1 - y) * w[1] + y * w[3], column.place);
-  point.pdf = pdf(row, column.count, point.place, w, point.axis_range);
-  return point;
+  for (int lane = 0; lane < static_cast<int>(u.size()); ++lane) put_cell(lane, lanes);
 }
 
 }  // namespace microtrace

@@ -1,7 +1,8 @@
 #pragma once
 /// Samples points of a radiance map approximately in proportion to luminance.
 
-#include "render/luminance.hpp"
+#include "render/kernels/kernel.hpp"
+#include "render/kernels/lane_access.hpp"
 
 #include <microtrace/environment.hpp>
 #include <microtrace/math.hpp>
@@ -15,14 +16,6 @@
 
 namespace microtrace {
 
-/// A position in the cell between the centers of four pixels of a map. Cells wrap around: column 0
-/// is between the centers of the last and the first pixel. Lines 0 and `height` are the half cells
-/// at the poles.
-struct MapPlace {
-  std::uint32_t column = 0, line = 0;  ///< less than the map's width; at most its height
-  float x = 0, y = 0;                  ///< position in the cell, in [0, 1], to the right and down
-};
-
 /// The first pixels of the rows of pixels at the top and the bottom of a row of cells.
 [[nodiscard]] inline std::array<const Vec3*, 2> rows_of(const RadianceMap& map,
                                                         std::uint32_t line) {
@@ -31,18 +24,11 @@ struct MapPlace {
 }
 
 /// The pixels at a cell's corners: upper left and right, lower left and right.
-[[nodiscard]] inline std::array<Vec3, 4> corners_of(const RadianceMap& map, const MapPlace& place) {
-  const std::uint32_t left = place.column > 0 ? place.column - 1 : map.width - 1;
-  const auto [upper, lower] = rows_of(map, place.line);
-  return {upper[left], upper[place.column], lower[left], lower[place.column]};
-}
-
-/// Interpolates bilinearly between the corners of a cell.
-template <class T>
-[[nodiscard]] T bilinear(const std::array<T, 4>& corners, float x, float y) {
-  const T high = (1 - x) * corners[0] + x * corners[1];
-  const T low = (1 - x) * corners[2] + x * corners[3];
-  return (1 - y) * high + y * low;
+[[nodiscard]] inline std::array<Vec3, 4> corners_of(const RadianceMap& map, std::uint32_t column,
+                                                    std::uint32_t line) {
+  const std::uint32_t left = column > 0 ? column - 1 : map.width - 1;
+  const auto [upper, lower] = rows_of(map, line);
+  return {upper[left], upper[column], lower[left], lower[column]};
 }
 
 /// The pdf of directions. Like the map's radiance, it is bilinear in each cell, except that the
@@ -58,26 +44,34 @@ template <class T>
 /// its row or column.
 class MapDistribution {
  public:
-  /// The minimum fraction of the luminance that the pdf keeps.
-  static constexpr float kLeastPart = 0.125F;
-
   /// The map must outlive this object.
   explicit MapDistribution(const RadianceMap& map);
 
-  struct Point {
-    MapPlace place{};
-    float height = 0;      ///< y component of the direction
-    float axis_range = 0;  ///< distance of the direction's end point from the y axis
-    float pdf = 0;         ///< per steradian
-  };
-  /// Samples up to kMostSamples points, for elements of u in [0, 1)^2. Sampling several at a time
-  /// is faster, because their memory accesses overlap.
-  static constexpr std::size_t kMostSamples = 16;
-  void sample(std::span<const Vec2> u, std::span<Point> points) const;
+  /// The shape of the map without a rotation, with an intensity of 1.
+  [[nodiscard]] const MapShape& shape() const { return shape_; }
 
-  /// The pdf of a direction, per steradian. `corners` are those of the cell that contains it.
-  [[nodiscard]] float pdf(const MapPlace& place, const std::array<Vec3, 4>& corners,
-                          float axis_range) const;
+  /// Selects a cell for each element of u in [0, 1)^2, in the lanes from 0 on. Sets all members
+  /// that sample_map() reads. Selecting several at a time is faster, because their memory accesses
+  /// overlap.
+  void select(std::span<const Vec2> u, MapLanes<kShadingLanes>& lanes) const;
+
+  /// Prefetches what put_cell() reads.
+  void prefetch(std::uint32_t column, std::uint32_t line) const;
+  /// Sets the corners of a lane's cell and its entries in the distribution.
+  template <int width>
+  void put_cell(int lane, MapLanes<width>& lanes) const {
+    const auto column = static_cast<std::uint32_t>(lanes.column[lane]);
+    const auto line = static_cast<std::uint32_t>(lanes.line[lane]);
+    const auto corners = corners_of(map_, column, line);
+    for (std::size_t i = 0; i < 4; ++i) put(lanes.corners[i], lane, corners[i]);
+    const Row& row = rows_[line];
+    lanes.sines[0][lane] = row.sines[0];
+    lanes.sines[1][lane] = row.sines[1];
+    lanes.floor[lane] = row.floor;
+    lanes.row_pdf[lane] = row.pdf;
+    const std::uint32_t* bounds = columns_of(line) + column;
+    lanes.count[lane] = static_cast<float>(bounds[1] - bounds[0]);
+  }
 
   /// The means over all directions of the map's luminance, and of the part of it on which the pdf
   /// is based.
@@ -95,30 +89,16 @@ class MapDistribution {
     float pdf;
   };
   [[nodiscard]] bool is_polar(std::uint32_t line) const { return line == 0 || line == height_; }
-  /// The weight of a luminance, per solid angle.
-  [[nodiscard]] float weight(float luminance) const {
-    const float relative = luminance * scale_;
-    return std::max(relative - 1, relative * kLeastPart);
+  [[nodiscard]] const std::uint32_t* columns_of(std::uint32_t line) const {
+    return &columns_[std::size_t{line} * (width_ + 1)];
   }
-  /// The weights at the corners of a cell, per unit of longitude and angle to the axis.
-  [[nodiscard]] std::array<float, 4> weights(const Row& row,
-                                             const std::array<Vec3, 4>& corners) const {
-    std::array<float, 4> result;
-    for (std::size_t i = 0; i < 4; ++i)
-      result[i] = weight(luminance(corners[i])) * row.sines[i / 2] + row.floor;
-    return result;
-  }
-  [[nodiscard]] float pdf(const Row& row, std::uint32_t count, const MapPlace& place,
-                          const std::array<float, 4>& weights, float axis_range) const;
   /// A selected row or column.
   struct Found {
     std::uint32_t index;
-    std::uint32_t count;  ///< how many 24-bit numbers select it
-    float place;          ///< position in the cell, in (0, 1)
+    float place;  ///< position in the cell, in (0, 1)
   };
   template <class Index>
   static Found find(const std::uint32_t* bounds, Index start, std::uint32_t number);
-  [[nodiscard]] Point point_in(const Found& line, const Found& column) const;
   void find_mean();
   /// Makes the columns' cumulative bounds. Returns the mean weight of each row's cells, without
   /// minimum probabilities.
@@ -127,9 +107,7 @@ class MapDistribution {
 
   const RadianceMap& map_;
   std::uint32_t width_, height_;
-  float turns_per_row_;  ///< height of a row of cells as an angle, in revolutions
-  float polar_h_;        ///< (1 - cos(theta)) / 2 at the end of a polar cell
-  float scale_ = 0;      ///< scales luminance to a mean of 1
+  MapShape shape_{};
   std::vector<Row> rows_;
   std::vector<std::uint32_t> row_bounds_;  ///< cumulative bounds from 0 to 2^24, one more than rows
   std::vector<std::uint32_t> row_guide_;   ///< where the search in row_bounds_ starts

@@ -1,12 +1,16 @@
 #include "render/lights/environment_light.hpp"
 
+#include "render/kernels/dispatch.hpp"
+#include "render/kernels/lane_access.hpp"
 #include "render/lights/studio.hpp"
 #include "render/prepared/shared_tables.hpp"
 #include "render/sampling/sobol.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -337,8 +341,8 @@ TEST(Studio, ExposesWhite) {
 
 TEST(EnvironmentLight, SeveralSamplesEqualSingleOnes) {
   const EnvironmentLight studio(Environment{.content = Studio{}});
-  std::array<Vec2, MapDistribution::kMostSamples> u;
-  std::array<EnvironmentLight::Sample, MapDistribution::kMostSamples> samples;
+  std::array<Vec2, kShadingLanes> u;
+  std::array<EnvironmentLight::Sample, kShadingLanes> samples;
   for (std::uint32_t round = 0; round < 200; ++round) {
     for (std::uint32_t i = 0; i < u.size(); ++i) u[i] = sampling::Sobol(5, 16 * round + i).pair(0);
     const std::size_t count = 1 + round % u.size();
@@ -348,6 +352,59 @@ TEST(EnvironmentLight, SeveralSamplesEqualSingleOnes) {
       ASSERT_EQ(samples[i].wi, one.wi);
       ASSERT_EQ(samples[i].radiance, one.radiance);
       ASSERT_EQ(samples[i].pdf, one.pdf);
+    }
+  }
+}
+
+// Includes the poles, the seam, and lanes that are not asked.
+TEST(EnvironmentLight, SeveralLookupsEqualSingleOnes) {
+  for (const Environment& environment :
+       {Environment{.content = Studio{}}, Environment{.content = Vec3(1, 2, 3)},
+        Environment{.content = sunny_map(17, 5), .rotation = 2, .intensity = 0.5F}}) {
+    const EnvironmentLight light(environment);
+    MapLanes<kShadingLanes> lanes{};
+    for (std::uint32_t round = 0; round < 300; ++round) {
+      const Lanes asked = round == 0 ? 0xffffU : (round * 2654435761U) >> 16U;
+      for (int lane = 0; lane < kShadingLanes; ++lane) {
+        const auto u = sampling::Sobol(7, 16 * round + static_cast<std::uint32_t>(lane)).pair(0);
+        const Vec3 special(float(lane & 1) - 0.5F, float(lane & 2) - 1,
+                           (lane & 4) == 0 ? -0.0F : 1e-30F);
+        put(lanes.d, lane,
+            glm::normalize(round == 0 ? special : Vec3(u.x - 0.5F, u.y - 0.5F, u.x)));
+      }
+      light.look_up(asked, lanes);
+      for (Lanes rest = asked; rest != 0; rest &= rest - 1) {
+        const int lane = std::countr_zero(rest);
+        const EnvironmentLight::Lookup one = light.lookup(got(lanes.d, lane));
+        ASSERT_EQ(got(lanes.radiance, lane), one.radiance) << round << " " << lane;
+        ASSERT_EQ(lanes.pdf[lane], one.pdf) << round << " " << lane;
+      }
+    }
+  }
+}
+
+// All instruction sets find the same cells and the same light, whether cells are asked or sampled.
+TEST(EnvironmentLight, KernelsAgree) {
+  const std::shared_ptr<const RadianceMap> map = sunny_map(33, 12);
+  const MapDistribution distribution(*map);
+  for (std::uint32_t round = 0; round < 100; ++round) {
+    std::array<Vec2, kShadingLanes> u;
+    for (std::uint32_t i = 0; i < u.size(); ++i) u[i] = sampling::Sobol(3, 16 * round + i).pair(0);
+    MapLanes<kShadingLanes> expected{};
+    distribution.select(u, expected);
+    const MapLanes<kShadingLanes> selected = expected;
+    kPortableShading.sample_map(distribution.shape(), expected);
+    for (const ShadingKernels* kernels : kShadingKernels.available()) {
+      MapLanes<kShadingLanes> lanes = selected;
+      kernels->sample_map(distribution.shape(), lanes);
+      EXPECT_EQ(std::memcmp(&lanes, &expected, sizeof lanes), 0) << kernels->name;
+      MapLanes<kShadingLanes> found = lanes;
+      kernels->find_map_places(distribution.shape(), found);
+      kernels->look_up_map(distribution.shape(), found);
+      for (int lane = 0; lane < kShadingLanes; ++lane) {
+        EXPECT_NEAR(found.pdf[lane] / lanes.pdf[lane], 1, 1e-2) << kernels->name;
+        EXPECT_NEAR(found.radiance[0][lane] / lanes.radiance[0][lane], 1, 1e-2) << kernels->name;
+      }
     }
   }
 }
