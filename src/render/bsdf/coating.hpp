@@ -67,6 +67,7 @@ class Coating {
   /// The transmittance of the sheen for z = |cos(theta)| (sheen_albedo_scaling of
   /// KHR_materials_sheen).
   [[nodiscard]] F sheen_transmittance(const F& z) const {
+    if (less<N>(F{}, greatest_sheen_) == 0) return all<N>(1);
     const F left = 1 - greatest_sheen_ * sheen_.albedo(z);
     return greatest_sheen_ > 0 ? left : all<N>(1);
   }
@@ -92,19 +93,19 @@ class Coating {
   static constexpr int kNodes = kCoatingNodes, kColumns = kCoatingColumns;
 
   [[nodiscard]] F coat_transmittance(const F& z) const {
+    if (less<N>(F{}, coat_weight_) == 0) return all<N>(1);
     const Albedo<N> albedo = coat_albedo_.at(z);
     const Schlick<N> schlick = fresnel();
     const F left =
         1 - coat_weight_ * (schlick.f0.x * (albedo.f1 - albedo.schlick) + albedo.schlick);
     return coat_weight_ == 0 ? all<N>(1) : left;
   }
-  [[nodiscard]] F mixed(const std::int16_t* table, const Cell<N>& row, int column) const {
+  [[nodiscard]] F mixed(const float* table, const Cell<N>& row, int column) const {
     F upper{}, lower{};
     for (int k = 0; k < kNodes; ++k) {
-      const std::int16_t* entries = &table[column * kNodes + k];
-      const Int<N> index = row.first * (kNodes * kColumns);
-      upper += node_transmittance_[k] * gathered<N>(entries, index);
-      lower += node_transmittance_[k] * gathered<N>(&entries[kNodes * kColumns], index);
+      const float* entries = &table[(column * kNodes + k) * kPaddedRows];
+      upper += node_transmittance_[k] * gathered_of_16<N>(entries, row.first);
+      lower += node_transmittance_[k] * gathered_of_16<N>(entries, row.first + 1);
     }
     return larger_of(row.mixed(upper, lower) * kDeficitUnit, F{});
   }

@@ -99,6 +99,15 @@ class RefractionLoss {
 
 template <int N>
 void RefractionLoss<N>::add(const F& weight, const Int<N>& row) {
+  const int first = lane(row, 0);
+  // Most surfaces in the lanes are of one material.
+  if (!any(row != first)) {
+    for (int i = 0; i < kColumns; ++i) {
+      outside_[i] += weight * float(kTables.loss_from_outside[first * kColumns + i]);
+      within_[i] += weight * float(kTables.loss_from_within[first * kColumns + i]);
+    }
+    return;
+  }
   for (int i = 0; i < kColumns; ++i) {
     outside_[i] += weight * gathered<N>(kTables.loss_from_outside + i, row * kColumns);
     within_[i] += weight * gathered<N>(kTables.loss_from_within + i, row * kColumns);

@@ -12,16 +12,18 @@
 
 namespace microtrace::bsdf {
 
+inline constexpr int kPaddedRows = 16;
+
 struct Tables {
   // GGX: rows of kAlbedoSteps entries, and the rows' means.
   const float *albedo_f1, *albedo_schlick, *mean_albedo_f1, *mean_albedo_schlick;
   // Anisotropic GGX: polynomial coefficients.
   const float *anisotropic_loss, *anisotropic_schlick;
   const float *mean_anisotropic_loss, *mean_anisotropic_schlick;
-  // Coatings: nodes and their weights; rows of kCoatingColumns columns, each with kCoatingNodes
-  // entries.
+  // Coatings: nodes and their weights; for each of kCoatingColumns columns and kCoatingNodes nodes,
+  // the entries of kCoatingRows rows, filled up to kPaddedRows.
   const float *coating_node, *coating_weight;
-  const std::int16_t *deficit_f1, *deficit_schlick;
+  const float *deficit_f1, *deficit_schlick;
   // Refraction: for each index of refraction, kLossRows rows of kLossColumns entries.
   const std::int16_t *loss_from_outside, *loss_from_within;
   // Sheen: rows of kSheenColumns entries.
