@@ -30,14 +30,14 @@ std::optional<GroundLight::Sample> GroundLight::sample(const Vec3& p, float choi
   const double sky = sky_ ? std::numbers::pi * sky_->irradiance() : 0;
   double total = sky;
   for (const NamedLight& light : scene_.lights) {
-    if (const auto found = of_punctual(light.light, p)) total += irradiance(*found);
+    if (const auto found = of_punctual(punctual_light(light.light), p)) total += irradiance(*found);
   }
   if (!(total > 0)) return std::nullopt;
   const double target = double{choice} * total;
   if (target < sky) return Sample{.to_light = sky_->sample(u), .is_far = true};
   double sum = sky;
   for (const NamedLight& light : scene_.lights) {
-    const auto found = of_punctual(light.light, p);
+    const auto found = of_punctual(punctual_light(light.light), p);
     if (!found) continue;
     sum += irradiance(*found);
     if (target < sum) return Sample{.to_light = Vec3(found->to_light), .is_far = found->is_far};

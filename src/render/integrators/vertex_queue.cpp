@@ -146,7 +146,8 @@ void VertexQueue::find_frames() {
 
 void VertexQueue::sample_lights(const WaveStep& step, const Lighting& lighting) {
   alignas(64) LaneFloats unused;
-  auto& [points, triangles] = choices_;
+  LightChoices<kShadingLanes>& points = choices_.points;
+  TriangleChoices<kShadingLanes>& triangles = choices_.triangles;
   kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightPair),
                         triangles.u[0], triangles.u[1]);
   kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightChoicePair),

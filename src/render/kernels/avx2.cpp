@@ -4,6 +4,7 @@
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_positions.hpp"
+#include "render/kernels/sample_punctual.hpp"
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
@@ -19,6 +20,7 @@ const ShadingKernels kAvx2Shading{"avx2",
                                   find_normals<8>,
                                   choose_lights<8, kShadingLanes>,
                                   sample_triangles<8, kShadingLanes>,
+                                  sample_punctual<8, kShadingLanes>,
                                   normalize<8, kShadingLanes>,
                                   find_map_places<8, kShadingLanes>,
                                   look_up_map<8, kShadingLanes>,

@@ -4,6 +4,7 @@
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_positions.hpp"
+#include "render/kernels/sample_punctual.hpp"
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
@@ -19,6 +20,7 @@ const ShadingKernels kAvx512Shading{"avx512",
                                     find_normals<16>,
                                     choose_lights<16, kShadingLanes>,
                                     sample_triangles<16, kShadingLanes>,
+                                    sample_punctual<16, kShadingLanes>,
                                     normalize<16, kShadingLanes>,
                                     find_map_places<16, kShadingLanes>,
                                     look_up_map<16, kShadingLanes>,

@@ -111,6 +111,10 @@ struct ShadingKernels {
                            const TriangleChoices<kShadingLanes>& choices,
                            const LightChoices<kShadingLanes>& points,
                            LightSamples<kShadingLanes>& samples);
+  void (*sample_punctual)(const PunctualLight* lights,
+                          const PunctualChoices<kShadingLanes>& choices,
+                          const LightChoices<kShadingLanes>& points,
+                          LightSamples<kShadingLanes>& samples);
   /// Makes these vectors unit vectors.
   void (*normalize)(LaneFloats (&vectors)[3]);
   /// See map_light.hpp.

@@ -58,6 +58,29 @@ struct alignas(64) TriangleLight {
   std::uint32_t is_textured;  ///< 1 if the emission is not the same everywhere
 };
 
+/// A punctual light of the scene.
+struct PunctualLight {
+  double position[3];
+  /// The axis of a spot light; the direction to a directional light; 0 for point lights.
+  double axis[3];
+  /// The cosine of a spot light's outer angle, and the difference to that of the inner angle. -1
+  /// and 1 for other lights.
+  double outer_cosine, penumbra;
+  double color[3], intensity;
+  double range;           ///< of the falloff window; may be infinite
+  double is_directional;  ///< 1 or 0
+};
+
+/// The points for which punctual lights are sampled.
+template <int width>
+struct alignas(width * sizeof(float)) PunctualChoices {
+  std::uint32_t light[width];  ///< index into the array of PunctualLight
+  float selected[width];       ///< 1 in the lanes to sample, otherwise 0
+  /// Among how many lights the light was selected with equal probability, after the selection with
+  /// LightChoices::probability.
+  float group_size[width];
+};
+
 /// The points for which emissive triangles are sampled.
 template <int width>
 struct alignas(width * sizeof(float)) TriangleChoices {

@@ -4,6 +4,7 @@
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_positions.hpp"
+#include "render/kernels/sample_punctual.hpp"
 #include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
@@ -19,6 +20,7 @@ const ShadingKernels kPortableShading{"portable",
                                       find_normals<4>,
                                       choose_lights<4, kShadingLanes>,
                                       sample_triangles<4, kShadingLanes>,
+                                      sample_punctual<4, kShadingLanes>,
                                       normalize<4, kShadingLanes>,
                                       find_map_places<4, kShadingLanes>,
                                       look_up_map<4, kShadingLanes>,

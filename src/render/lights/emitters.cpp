@@ -32,7 +32,7 @@ Emitters::Emitters(const Scene& scene, const Shading& shading) : scene_(scene), 
   add_lights(bounds);
   if (!bounds.empty()) tree_.emplace(bounds);
   for (const std::uint32_t i : far_lights_) {
-    if (const auto light = of_punctual(scene.lights[i].light, Vec3(0)))
+    if (const auto light = of_punctual(punctual_[i], Vec3(0)))
       far_light_ += luminance(light->light);
   }
 }
@@ -94,6 +94,7 @@ void Emitters::add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBo
 void Emitters::add_lights(std::vector<LightBounds>& bounds) {
   take_memory_for_emitters(scene_.lights.size());
   for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
+    punctual_.push_back(punctual_light(scene_.lights[i].light));
     if (const auto light = punctual_bounds(scene_.lights[i].light)) {
       if (!(light->power > 0)) continue;
       emitters_.push_back({.light = i});
@@ -131,7 +132,7 @@ void Emitters::put_textured(std::uint32_t triangle, const Vec2& u, int lane,
 
 std::optional<FoundLight> Emitters::of_shape(const Emitter& emitter, const Vec3& p,
                                              const Vec2& u) const {
-  const std::optional<ShapeSample> sample = sample_shape(*emitter.shape, p, u);
+  const std::optional<ShapeSample> sample = microtrace::sample_shape(*emitter.shape, p, u);
   if (!sample) return std::nullopt;
   const ShadingPoint point = shading_.point_on(emitter.id, Vec3(0), sample->front, 0);
   const float coverage = shading_.coverage(point, false);
@@ -144,21 +145,14 @@ std::optional<FoundLight> Emitters::of_shape(const Emitter& emitter, const Vec3&
                     .target = emitter.id};
 }
 
-std::optional<LightSample> Emitters::sample_far(const Vec3& p, float choice,
-                                                double probability) const {
+std::uint32_t Emitters::far_light(float choice) const {
   const auto count = static_cast<float>(far_lights_.size());
-  const auto i = static_cast<std::size_t>(std::min(choice * count, count - 1));
-  const auto found = of_punctual(scene_.lights[far_lights_[i]].light, p);
-  if (!found) return std::nullopt;
-  return found->with_probability(probability / double{count});
+  return far_lights_[static_cast<std::size_t>(std::min(choice * count, count - 1))];
 }
 
-std::optional<LightSample> Emitters::sample_near(std::uint32_t light, const Vec3& p, const Vec2& u,
-                                                 double probability) const {
-  const Emitter& emitter = emitters_[light];
-  const std::optional<FoundLight> found = emitter.light != kNone
-                                              ? of_punctual(scene_.lights[emitter.light].light, p)
-                                              : of_shape(emitter, p, u);
+std::optional<LightSample> Emitters::sample_shape(std::uint32_t light, const Vec3& p, const Vec2& u,
+                                                  double probability) const {
+  const std::optional<FoundLight> found = of_shape(emitters_[light], p, u);
   if (!found) return std::nullopt;
   return found->with_probability(probability);
 }

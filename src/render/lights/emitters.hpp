@@ -38,10 +38,16 @@ class Emitters {
   /// The input for selecting lights, without the environment.
   [[nodiscard]] LightChoiceSetup choice_setup() const;
 
-  /// Samples the directional lights. `choice` is in [0, 1). `probability` is the probability of
-  /// sampling directional lights instead of other lights.
-  [[nodiscard]] std::optional<LightSample> sample_far(const Vec3& p, float choice,
-                                                      double probability) const;
+  /// The punctual lights, by their indices in Scene::lights.
+  [[nodiscard]] const PunctualLight* punctual() const { return punctual_.data(); }
+  /// The index of a directional light among them. `choice`, in [0, 1), selects it.
+  [[nodiscard]] std::uint32_t far_light(float choice) const;
+  [[nodiscard]] std::size_t far_count() const { return far_lights_.size(); }
+  /// The index of a near light among them; nothing for surfaces.
+  [[nodiscard]] std::optional<std::uint32_t> punctual_index(std::uint32_t light) const {
+    const std::uint32_t index = emitters_[light].light;
+    return index == kNone ? std::nullopt : std::optional(index);
+  }
 
   /// The emissive triangles of meshes.
   [[nodiscard]] const TriangleLight* triangles() const { return triangles_.data(); }
@@ -55,10 +61,10 @@ class Emitters {
   /// textured.
   void put_textured(std::uint32_t triangle, const Vec2& u, int lane,
                     TriangleChoices<kShadingLanes>& choices) const;
-  /// Samples a near light that is not a triangle of a mesh. u selects a point on it. `probability`
-  /// is the probability of selecting this light.
-  [[nodiscard]] std::optional<LightSample> sample_near(std::uint32_t light, const Vec3& p,
-                                                       const Vec2& u, double probability) const;
+  /// Samples an emissive surface that is not a triangle of a mesh. u selects a point on it.
+  /// `probability` is the probability of selecting this light.
+  [[nodiscard]] std::optional<LightSample> sample_shape(std::uint32_t light, const Vec3& p,
+                                                        const Vec2& u, double probability) const;
 
   /// The index of an emissive surface among the lights; nothing for other primitives.
   [[nodiscard]] std::optional<std::size_t> find(PrimitiveId id) const;
@@ -92,6 +98,7 @@ class Emitters {
   std::vector<std::uint32_t> far_lights_;  // indices into Scene::lights
   std::vector<Emitter> emitters_;          // emissive surfaces first, sorted by id
   std::vector<TriangleLight> triangles_;
+  std::vector<PunctualLight> punctual_;  // by index in Scene::lights
   std::size_t surfaces_ = 0;
   std::optional<LightTree> tree_;  // tree of the emitters
   double far_light_ = 0;

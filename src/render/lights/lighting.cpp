@@ -85,7 +85,7 @@ void Lighting::sample_environment(int count, const Choices& all_choices,
 }
 
 void Lighting::sample_near(int lane, Choices& choices, LightSamples<kShadingLanes>& samples) const {
-  auto& [points, triangles] = choices;
+  auto& [points, triangles, punctual] = choices;
   const std::uint32_t light = points.light[lane];
   const Vec2 u(triangles.u[0][lane], triangles.u[1][lane]);
   if (const std::optional<std::uint32_t> triangle = emitters_.triangle_index(light)) {
@@ -94,14 +94,20 @@ void Lighting::sample_near(int lane, Choices& choices, LightSamples<kShadingLane
     emitters_.put_textured(*triangle, u, lane, triangles);
     return;
   }
+  if (const std::optional<std::uint32_t> index = emitters_.punctual_index(light)) {
+    punctual.selected[lane] = 1;
+    punctual.light[lane] = *index;
+    punctual.group_size[lane] = 1;
+    return;
+  }
   const auto sample =
-      emitters_.sample_near(light, got(points.p, lane), u, double{points.probability[lane]});
+      emitters_.sample_shape(light, got(points.p, lane), u, double{points.probability[lane]});
   if (sample) put_sample(samples, lane, *sample);
 }
 
 void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices,
                       LightSamples<kShadingLanes>& samples) const {
-  auto& [points, triangles] = choices;
+  auto& [points, triangles, punctual] = choices;
   for (int lane = 0; lane < count; ++lane)
     points.share[lane] = guide_ ? share(cell(got(points.p, lane), got(points.n, lane))) : 1;
   kernels.choose_lights(setup_, points);
@@ -109,18 +115,25 @@ void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices
   std::ranges::fill(samples.target, LightSamples<kShadingLanes>::kNoTarget);
   std::ranges::fill(triangles.selected, 0.0F);
   std::ranges::fill(triangles.triangle, 0U);
+  std::ranges::fill(punctual.selected, 0.0F);
+  std::ranges::fill(punctual.light, 0U);
   for (int lane = 0; lane < count; ++lane) {
     if (points.kind[lane] == LightKind::near) {
       sample_near(lane, choices, samples);
     } else if (points.kind[lane] == LightKind::far) {
-      const auto sample = emitters_.sample_far(got(points.p, lane), points.choice[lane],
-                                               double{points.probability[lane]});
-      if (sample) put_sample(samples, lane, *sample);
+      punctual.selected[lane] = 1;
+      punctual.light[lane] = emitters_.far_light(points.choice[lane]);
+      punctual.group_size[lane] = static_cast<float>(emitters_.far_count());
     }
   }
   if (samples_environment()) sample_environment(count, choices, samples);
-  if (std::ranges::any_of(triangles.selected, [](float selected) { return selected != 0; }))
+  const auto is_any = [](const LaneFloats& selected) {
+    return std::ranges::any_of(selected, [](float one) { return one != 0; });
+  };
+  if (is_any(triangles.selected))
     kernels.sample_triangles(emitters_.triangles(), triangles, points, samples);
+  if (is_any(punctual.selected))
+    kernels.sample_punctual(emitters_.punctual(), punctual, points, samples);
 }
 
 void Lighting::environment(const ShadingKernels& kernels, Lanes lanes, bool from_camera,

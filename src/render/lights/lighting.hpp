@@ -31,6 +31,7 @@ class Lighting {
   struct Choices {
     LightChoices<kShadingLanes> points{};
     TriangleChoices<kShadingLanes> triangles{};
+    PunctualChoices<kShadingLanes> punctual{};
   };
   /// Samples a light for each of `count` points. points.p and n are the points, points.choice
   /// selects the light, and triangles.u the position on it. If a uniform environment is selected
@@ -95,8 +96,8 @@ class Lighting {
   /// Sets the samples of the lanes for which the environment is selected.
   void sample_environment(int count, const Choices& choices,
                           LightSamples<kShadingLanes>& samples) const;
-  /// Sets the sample of a lane for which a near light is selected, unless it is a triangle without
-  /// textures, which the kernel samples.
+  /// Sets the sample of a lane for which a near light is selected, unless it is a triangle of a
+  /// mesh or a punctual light, which kernels sample.
   void sample_near(int lane, Choices& choices, LightSamples<kShadingLanes>& samples) const;
   [[nodiscard]] bool samples_environment() const {
     return environment_ && (guide_ || !environment_->is_uniform());

@@ -1,11 +1,13 @@
 #include "render/lights/punctual.hpp"
 
+#include "render/kernels/sample_punctual.hpp"
 #include "render/luminance.hpp"
 #include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <variant>
 
 #include <glm/geometric.hpp>
@@ -18,46 +20,14 @@ double finite(float intensity) {
   return std::min(intensity, std::numeric_limits<float>::max());
 }
 
-/// The falloff window of KHR_lights_punctual, which decreases from 1 to 0 at the range.
-double window(double distance, double range) {
-  const double q = distance / range;
-  const double w = std::clamp(1 - q * q * q * q, 0.0, 1.0);
-  return std::isfinite(range) ? w : 1;
+void put(double (&to)[3], const DVec3& v) {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = v[axis];
 }
 
-std::optional<FoundLight> from_place(const DVec3& place, const Vec3& p, const Vec3& color,
-                                     double intensity, double range) {
-  const DVec3 to_light = place - DVec3(p);
-  const double square = glm::dot(to_light, to_light);
-  if (!(square > 0)) return std::nullopt;
-  const double distance = std::sqrt(square);
-  const double irradiance = intensity * window(distance, range) / square;
-  if (!(irradiance > 0) || !std::isfinite(distance)) return std::nullopt;
-  return FoundLight{
-      .to_light = to_light, .wi = Vec3(to_light / distance), .light = irradiance * DVec3(color)};
-}
-
-std::optional<FoundLight> sample(const DirectionalLight& light, const Vec3&) {
-  const DVec3 wi = -light.direction;
-  return FoundLight{.to_light = wi,
-                    .is_far = true,
-                    .wi = Vec3(wi),
-                    .light = finite(light.intensity) * DVec3(light.color)};
-}
-
-std::optional<FoundLight> sample(const PointLight& light, const Vec3& p) {
-  return from_place(light.position, p, light.color, finite(light.intensity), light.range);
-}
-
-std::optional<FoundLight> sample(const SpotLight& light, const Vec3& p) {
-  const DVec3 to_light = DVec3(p) - light.position;
-  const double square = glm::dot(to_light, to_light);
-  if (!(square > 0)) return std::nullopt;
-  const double cosine = glm::dot(to_light, light.direction) / std::sqrt(square);
-  const double inner = cos_radians(light.inner_angle), outer = cos_radians(light.outer_angle);
-  const double inside = std::clamp((cosine - outer) / std::max(inner - outer, 1e-9), 0.0, 1.0);
-  return from_place(light.position, p, light.color, finite(light.intensity) * inside * inside,
-                    light.range);
+void put_cone(PunctualLight& to, const SpotLight& light) {
+  put(to.axis, light.direction);
+  to.outer_cosine = cos_radians(light.outer_angle);
+  to.penumbra = std::max(cos_radians(light.inner_angle) - to.outer_cosine, 1e-9);
 }
 
 LightBounds bounds_at(const DVec3& place, const Vec3& color, float intensity,
@@ -86,8 +56,35 @@ std::optional<LightBounds> punctual_bounds(const Light& light) {
   return std::visit([](const auto& l) { return bounds(l); }, light);
 }
 
-std::optional<FoundLight> of_punctual(const Light& light, const Vec3& p) {
-  return std::visit([&](const auto& l) { return sample(l, p); }, light);
+PunctualLight punctual_light(const Light& light) {
+  PunctualLight result{};
+  result.outer_cosine = -1;
+  result.penumbra = 1;
+  std::visit(
+      [&]<class AnyLight>(const AnyLight& l) {
+        put(result.color, DVec3(l.color));
+        result.intensity = finite(l.intensity);
+        if constexpr (std::is_same_v<AnyLight, DirectionalLight>) {
+          put(result.axis, -l.direction);
+          result.is_directional = 1;
+        } else {
+          put(result.position, l.position);
+          result.range = l.range;
+        }
+        if constexpr (std::is_same_v<AnyLight, SpotLight>) put_cone(result, l);
+      },
+      light);
+  return result;
+}
+
+std::optional<FoundLight> of_punctual(const PunctualLight& light, const Vec3& p) {
+  const PunctualLights<1> lights([&](int) -> const PunctualLight& { return light; });
+  const PunctualSamples<1> found = lights.at(DVec3(p));
+  if (found.is_lit == 0) return std::nullopt;
+  return FoundLight{.to_light = found.to_light,
+                    .is_far = light.is_directional != 0,
+                    .wi = found.wi,
+                    .light = found.light};
 }
 
 }  // namespace microtrace

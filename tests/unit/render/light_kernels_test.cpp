@@ -5,10 +5,13 @@
 #include "render/kernels/lane_access.hpp"
 #include "render/kernels/sample_triangles.hpp"
 #include "render/lights/light_tree.hpp"
+#include "render/lights/punctual.hpp"
 #include "support/lane_tests.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -119,6 +122,94 @@ TEST_P(LightKernelsTest, TrianglesAreSampledWithTheBitsOfOneLane) {
     }
   }
   EXPECT_GT(lit, kRounds * kShadingLanes / 4);
+}
+
+std::vector<PunctualLight> any_punctual_lights(LaneRandom& random) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<PunctualLight> result;
+  for (int i = 0; i < 30; ++i) {
+    const DVec3 place(10.0F * random.vector()), axis = glm::normalize(DVec3(random.direction()));
+    const Vec3 color = random.color();
+    const float intensity = std::exp2(60 * random.signed_unit());
+    const double range = random.number() < 0.3F ? kInfinity : 20 * double{random.number()} + 1e-3;
+    const double outer = 0.1 + double{random.number()};
+    const std::array<Light, 3> kinds = {
+        DirectionalLight{.direction = axis, .color = color, .intensity = intensity},
+        PointLight{.position = place, .color = color, .intensity = intensity, .range = range},
+        SpotLight{.position = place,
+                  .direction = axis,
+                  .color = color,
+                  .intensity = intensity,
+                  .range = range,
+                  .inner_angle = outer * double{random.number()},
+                  .outer_angle = outer}};
+    result.push_back(punctual_light(kinds[random.bits() % kinds.size()]));
+  }
+  return result;
+}
+
+TEST_P(LightKernelsTest, PunctualLightsAreSampledWithTheBitsOfOneLight) {
+  LaneRandom random(9);
+  int lit = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<PunctualLight> lights = any_punctual_lights(random);
+    PunctualChoices<kShadingLanes> choices{};
+    LightChoices<kShadingLanes> points{};
+    LightSamples<kShadingLanes> lanes{};
+    for (int i = 0; i < kShadingLanes; ++i) {
+      choices.light[i] = random.bits() % static_cast<std::uint32_t>(lights.size());
+      choices.selected[i] = random.number() < 0.2F ? 0.0F : 1.0F;
+      choices.group_size[i] = static_cast<float>(1 + random.bits() % 3);
+      put(points.p, i, 12.0F * random.vector());
+      if (random.number() < 0.05F) {
+        const double(&place)[3] = lights[choices.light[i]].position;
+        put(points.p, i, Vec3(DVec3(place[0], place[1], place[2])));
+      }
+      points.probability[i] = random.number() + 1e-6F;
+      lanes.pdf[i] = -1;
+    }
+    GetParam()->sample_punctual(lights.data(), choices, points, lanes);
+    for (int i = 0; i < kShadingLanes; ++i) {
+      const auto found = of_punctual(lights[choices.light[i]], got(points.p, i));
+      if (choices.selected[i] == 0 || !found) {
+        ASSERT_EQ(lanes.pdf[i], -1);
+        continue;
+      }
+      ++lit;
+      const LightSample one =
+          found->with_probability(double{points.probability[i]} / double{choices.group_size[i]});
+      ASSERT_EQ(lanes.pdf[i], 0);
+      ASSERT_EQ(lanes.is_far[i] != 0, one.is_far);
+      ASSERT_EQ(got(lanes.to_light, i), one.to_light);
+      ASSERT_EQ(got(lanes.wi, i), one.wi);
+      ASSERT_EQ(got(lanes.light, i), one.light);
+    }
+  }
+  EXPECT_GT(lit, kRounds * kShadingLanes / 4);
+}
+
+// The falloff of KHR_lights_punctual, computed here in its own way.
+TEST(PunctualLights, FallOffAsSpecified) {
+  const SpotLight spot{.position = {1, 2, 3},
+                       .direction = {0, -1, 0},
+                       .color = Vec3(1, 0.5F, 0.25F),
+                       .intensity = 8,
+                       .range = 4,
+                       .inner_angle = 0.2,
+                       .outer_angle = 0.7};
+  for (const double angle : {0.0, 0.1, 0.3, 0.5, 0.69, 0.75}) {
+    const double reach = 2.5;
+    const Vec3 p(DVec3(1 + reach * std::sin(angle), 2 - reach * std::cos(angle), 3));
+    const double range_part = std::max(0.0, 1 - std::pow(reach / 4, 4));
+    const double scale = 1 / (std::cos(0.2) - std::cos(0.7));
+    const double cone_part = std::clamp((std::cos(angle) - std::cos(0.7)) * scale, 0.0, 1.0);
+    const double expected = 8 * range_part * cone_part * cone_part / (reach * reach);
+    const auto found = of_punctual(punctual_light(spot), p);
+    ASSERT_EQ(found.has_value(), expected > 0) << angle;
+    if (!found) continue;
+    EXPECT_NEAR(found->light.x, expected, 1e-5 * expected) << angle;
+    EXPECT_NEAR(found->light.z, expected / 4, 1e-5 * expected) << angle;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Isa, LightKernelsTest, testing::ValuesIn(kShadingKernels.available()),
