@@ -33,7 +33,8 @@ inline Float<N> gathered(const std::int16_t* table, const Int<N>& index) {
 template <int N>
 inline Float<N> gathered_of_16(const float* table, const Int<N>& index) {
 #if defined(__AVX512F__)
-  if constexpr (N == 16) return _mm512_maskz_permutexvar_ps(0xffff, (__m512i)index, _mm512_load_ps(table));
+  if constexpr (N == 16)
+    return _mm512_maskz_permutexvar_ps(0xffff, (__m512i)index, _mm512_load_ps(table));
 #elif defined(__AVX2__)
   if constexpr (N == 8) {
     const __m256 low = _mm256_permutevar8x32_ps(_mm256_load_ps(table), (__m256i)index);

@@ -1,0 +1,185 @@
+/// The surfaces that the paths of a wavefront meet.
+
+#include "render/bsdf/put_surface.hpp"
+#include "render/integrators/wave.hpp"
+#include "render/kernels/lane_access.hpp"
+#include "render/shading/footprint.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace microtrace {
+
+Lanes Wave::meet_surfaces(std::size_t first) {
+  VertexGroup& group = vertices_.group();
+  HitGroup& hits = group.hits;
+  const auto ids = std::span(hits_).subspan(first).first<kShadingLanes>();
+  for (int axis = 0; axis < 3; ++axis) {
+    std::copy_n(paths_->o[axis] + first, kShadingLanes, hits.lanes.o[axis]);
+    std::copy_n(paths_->d[axis] + first, kShadingLanes, hits.lanes.d[axis]);
+  }
+  std::ranges::copy(ids, group.id);
+  if (step_.depth == 1 && shading_->has_textures()) widen(first);
+  shading_->find_points(*kernels_, ids, hits);
+  const Lanes simple = add_simple(first);
+  Lanes escaped = 0;
+  for (Lanes rest = hits.hit & ~simple; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    if (!step_slowly(first, lane)) escaped |= Lanes{1} << lane;
+  }
+  return escaped;
+}
+
+void Wave::widen(std::size_t first) {
+  PathColumns& paths = *paths_;
+  for (Lanes rest = vertices_.group().hits.hit; rest != 0; rest &= rest - 1) {
+    const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(rest));
+    const Footprint footprint = camera_footprint(world_->camera, paths.ray(i), step_.sample_width);
+    paths.begin[i] = footprint.begin;
+    paths.spread[i] = footprint.spread;
+  }
+}
+
+Lanes Wave::add_simple(std::size_t first) {
+  VertexGroup& group = vertices_.group();
+  const PathColumns& paths = *paths_;
+  const HitLanes& hits = group.hits.lanes;
+  const bool looks_behind = this->looks_behind();
+  for (int lane = 0; lane < kShadingLanes; ++lane) {
+    const std::size_t i = first + static_cast<std::size_t>(lane);
+    group.width[lane] = paths.begin[i] + paths.spread[i] * hits.distance[lane];
+    group.on_mesh[lane] = 1;
+    group.normals.is_mapped[lane] = group.coat_normals.is_mapped[lane] = 0;
+    for (auto& weights : group.through_weight) weights[lane] = 1;
+    group.media[lane] = 0;
+    group.channel[lane] = paths.channel[i];
+  }
+  Lanes simple = 0, textured = 0;
+  for (Lanes rest = group.hits.sure; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    const auto k = static_cast<std::size_t>(lane);
+    const TexturedMaterial& look = *group.hits.looks[k];
+    const bool is_front = hits.from_behind[lane] == 0;
+    if (!look.is_simple || !group.hits.meshes[k]->colors.empty() ||
+        (is_front ? looks_behind && look.has_open_back && may_get_light(first + k)
+                  : !look.has_back) ||
+        paths.media[first + k] != 0 || is_last(first + k))
+      continue;
+    const Lanes bit = Lanes{1} << lane;
+    simple |= bit;
+    if (look.is_textured) textured |= bit;
+    group.side[lane] = is_front ? 1.0F : -1.0F;
+    const BsdfInput& input = *look.constant_but_textures;
+    group.features[k] = input.features;
+    if (group.surface_of[k] == &look) continue;
+    group.surface_of[k] = &look;
+    put_surface(group.surface, lane, input.parameters);
+    if (input.features.index() != 0)
+      put_extensions(group.surface, lane, input.parameters, input.layers);
+  }
+  if (textured != 0) simple = (simple & ~textured) | add_textures(textured);
+  if (step_.depth == 1) {
+    for (Lanes rest = simple; rest != 0; rest &= rest - 1)
+      alphas_[paths.slot[first + static_cast<std::size_t>(std::countr_zero(rest))]] = 1;
+  }
+  group.vertices = simple;
+  return simple;
+}
+
+Lanes Wave::add_textures(Lanes lanes) {
+  VertexGroup& group = vertices_.group();
+  Shading::look_up(group.hits, lanes, group.width, texels_);
+  for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    const auto k = static_cast<std::size_t>(lane);
+    const TexturedMaterial& look = *group.hits.looks[k];
+    const Material& material = *look.material;
+    const Vec4 base_color = material.base_color * texels_.base_color[k];
+    if ((look.shines() && Vec3(texels_.emissive[k]) * material.emissive != Vec3(0)) ||
+        (material.alpha_mode == AlphaMode::mask && base_color.w < material.alpha_cutoff)) {
+      lanes &= ~(Lanes{1} << lane);
+      continue;
+    }
+    bsdf::Parameters base;
+    Shading::set_base(material, base_color, texels_.metallic_roughness[k], base);
+    put(group.surface.base_color, lane, base.base_color);
+    group.surface.metallic[lane] = base.metallic;
+    group.surface.roughness[lane] = base.roughness;
+    if (look[MaterialTexture::normal].map == nullptr) continue;
+    put_normal_map(group, lane, group.hits.meshes[k], group.hits.corners[k],
+                   Vec3(texels_.normal[k]), material.normal_scale);
+  }
+  return lanes;
+}
+
+void Wave::prepare(std::size_t i, ShadingPoint& point) const {
+  point.width = paths_->begin[i] + paths_->spread[i] * point.at.distance;
+  Shading::find_texel_address(point);
+}
+
+bool Wave::step_slowly(std::size_t first, int lane) {
+  const std::size_t i = first + static_cast<std::size_t>(lane);
+  PathColumns& paths = *paths_;
+  const HitGroup& hits = vertices_.group().hits;
+  const Ray ray = paths.ray(i);
+  const bool from_camera = paths.pdf[i] == 0;
+  // The parameter t is needed only where find_points() is not sure, and in media.
+  const bool is_sure = (hits.sure >> lane & 1U) != 0 && paths.media[i] == 0;
+  std::optional<Hit> hit = from_camera ? *camera_hits_[i]
+                           : is_sure   ? Hit{.id = hits_[i], .t = 0}
+                                       : tracer_.hit(ray, hits_[i]);
+  ShadingPoint point = shading_->point(hits, lane, ray, *hit);
+  prepare(i, point);
+  std::uint32_t layer = 0;
+  left_bodies_.clear();
+  for (; hit && (passes_hidden_surface(i, point) || !stops(i, point, layer)); ++layer)
+    hit = next(i, *hit, point);
+  if (paths.media[i] != 0 && !cross_medium(i, ray, hit, point.at.distance)) return true;
+  if (!hit) return false;
+  if (looks_behind() && Shading::lets_light_in(point) && (layer > 0 || may_get_light(i))) {
+    const Behind behind = look_behind(i, *hit, point, layer);
+    if (behind.is_open) return false;
+    if (behind.hit) hit = behind.hit, point = behind.point;
+  }
+  if (from_camera) alphas_[paths.slot[i]] = 1;
+  add_emission(i, *hit, point);
+  if (!is_last(i) && !point.look->material->unlit) put_vertex(i, lane, *hit, point);
+  return true;
+}
+
+int Wave::channel_of(const Material& material, std::size_t i) const {
+  const auto channel = static_cast<int>(paths_->channel[i]);
+  if (channel < 3 || material.dispersion == 0 || !refracts(material)) return channel;
+  const float u = paths_->sobol(i).pair(step_.pair(sampling::kLightChoicePair)).y;
+  return std::min(static_cast<int>(3 * u), 2);
+}
+
+void Wave::put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoint& point) {
+  VertexGroup& group = vertices_.group();
+  const auto k = static_cast<std::size_t>(lane);
+  const Material& material = *point.look->material;
+  const int channel = channel_of(material, i);
+  const Beyond beyond =
+      media_.cross(Shading::enclosed_medium(point), point.at.front, media_.at(paths_->media[i]));
+  const BsdfInput& input = shading_->bsdf_input(point, channel, beyond.outside, varying_);
+  group.vertices |= Lanes{1} << lane;
+  group.features[k] = input.features;
+  group.id[lane] = hit.id;
+  put_point(group, lane, point);
+  group.surface_of[k] = nullptr;
+  put_surface(group.surface, lane, input.parameters);
+  if (input.features.index() == 0) return;
+  put_extensions(group.surface, lane, input.parameters, input.layers);
+  const auto path_channel = static_cast<int>(paths_->channel[i]);
+  Vec3 through(1);
+  if (path_channel != channel) {
+    // A dispersive surface reduces the path to one channel.
+    through = Vec3(0);
+    through[channel] = 3;
+  }
+  put(group.through_weight, lane, through);
+  group.channel[lane] = static_cast<std::uint32_t>(channel);
+  group.media[lane] = NestedMediaTable::number_of(beyond.media);
+}
+
+}  // namespace microtrace
