@@ -9,6 +9,14 @@ namespace microtrace {
 /// Arrays of 32-bit values whose lanes ShadingKernels::append copies.
 class ColumnList {
  public:
+  /// Empties the list unless it was begun for the same object, whose arrays it lists. Returns true
+  /// if the list is empty and must be filled.
+  [[nodiscard]] bool begins(const void* object) {
+    if (object_ == object) return false;
+    object_ = object;
+    count_ = 0;
+    return true;
+  }
   void add(const float* from, float* to) {
     columns_[static_cast<std::size_t>(count_++)] = {.from = from, .to = to};
   }
@@ -27,6 +35,7 @@ class ColumnList {
   }
 
  private:
+  const void* object_ = nullptr;
   std::array<ColumnCopy, 64> columns_;
   int count_ = 0;
 };

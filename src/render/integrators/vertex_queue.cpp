@@ -1,6 +1,5 @@
 #include "render/integrators/vertex_queue.hpp"
 
-#include "render/integrators/column_list.hpp"
 #include "render/kernels/dispatch.hpp"
 #include "render/kernels/lane_access.hpp"
 #include "render/shading/beer_lambert.hpp"
@@ -15,8 +14,6 @@
 
 namespace microtrace {
 namespace {
-
-const LaneNumbers kNone{};
 
 /// The lanes in which a comparison is true.
 template <class F>
@@ -59,75 +56,15 @@ Lanes VertexQueue::add(Lanes lanes, const Vertices& from) {
   const Lanes added = first_of(lanes, kShadingLanes - count_);
   const auto to = static_cast<std::size_t>(count_);
   const auto& [group, paths, first] = from;
-  const HitLanes& hits = group.hits.lanes;
-  ColumnList of_paths, of_group;
-  of_paths.add(paths.throughput, scatter_.throughput);
-  of_paths.add(paths.media, media_);
-  of_paths.add(paths.scatterings, scatterings_);
-  of_paths.add(paths.key, scatter_.key);
-  of_paths.add(paths.index, scatter_.index);
-  of_paths.add(paths.slot, slots_);
-  of_paths.add(paths.channel, channels_);
-  of_paths.add(paths.spread, spreads_);
-  of_paths.add(paths.t_min, left_.t_min);
-  of_paths.append(kernels_, {.lanes = added, .from = first, .to = to});
-
-  of_group.add(hits.o, left_.o);
-  of_group.add(hits.d, left_.d);
-  of_group.add(hits.corners[0], left_.a);
-  of_group.add(hits.corners[1], left_.b);
-  of_group.add(hits.corners[2], left_.c);
-  of_group.add(hits.p, choices_.points.p);
-  of_group.add(hits.n, points_.n);
-  of_group.add(hits.ns, points_.ns);
-  of_group.add(group.side, points_.side);
-  of_group.add(group.id, ids_);
-  of_group.add(group.on_mesh, on_mesh_);
-  of_group.add(group.width, widths_);
-  of_group.add(group.normals.is_mapped, normals_.is_mapped);
-  of_group.add(group.surface.base_color, scatter_.surface.base_color);
-  of_group.add(group.surface.metallic, scatter_.surface.metallic);
-  of_group.add(group.surface.roughness, scatter_.surface.roughness);
-  of_group.add(group.surface.f0, scatter_.surface.f0);
-  of_group.add(group.surface.f90, scatter_.surface.f90);
-  if ((group.mapped & added) != 0) {
-    for (int corner = 0; corner < 3; ++corner)
-      of_group.add(group.tangents[corner], points_.tangents[corner]);
-    of_group.add(group.handedness, points_.handedness);
-    of_group.add(hits.weights, points_.weights);
-    of_group.add(group.normals.texel, normals_.texel);
-    of_group.add(group.normals.scale, normals_.scale);
-  }
-  of_group.append(kernels_, {.lanes = added, .from = 0, .to = to});
-  if (features_.index() != 0) add_extensions(added, group);
+  if (from_paths_.begins(&paths)) list_paths(paths);
+  if (from_group_.begins(&group)) list_group(group);
+  from_paths_.append(kernels_, {.lanes = added, .from = first, .to = to});
+  const AppendedLanes in_group{.lanes = added, .from = 0, .to = to};
+  from_group_.append(kernels_, in_group);
+  if ((group.mapped & added) != 0) from_maps_.append(kernels_, in_group);
+  if (features_.index() != 0) from_extensions_.append(kernels_, in_group);
   count_ += std::popcount(added);
   return lanes & ~added;
-}
-
-void VertexQueue::add_extensions(Lanes lanes, const VertexGroup& group) {
-  const SurfaceLanes& from = group.surface;
-  SurfaceLanes& to = scatter_.surface;
-  ColumnList list;
-  list.add(from.transmission, to.transmission);
-  list.add(from.eta, to.eta);
-  list.add(from.diffuse_transmission, to.diffuse_transmission);
-  list.add(from.diffuse_transmission_color, to.diffuse_transmission_color);
-  list.add(from.anisotropy, to.anisotropy);
-  list.add(from.along, to.along);
-  list.add(from.film_share, to.film_share);
-  list.add(from.film_ior, to.film_ior);
-  list.add(from.film_thickness, to.film_thickness);
-  list.add(from.sheen, to.sheen);
-  list.add(from.sheen_roughness, to.sheen_roughness);
-  list.add(from.coat, to.coat);
-  list.add(from.coat_roughness, to.coat_roughness);
-  list.add(group.through_weight, scatter_.through_weight);
-  list.add(group.media, below_media_);
-  list.add(group.channel, below_channels_);
-  list.add(group.coat_normals.is_mapped, coat_normals_.is_mapped);
-  list.add(group.coat_normals.texel, coat_normals_.texel);
-  list.add(group.coat_normals.scale, coat_normals_.scale);
-  list.append(kernels_, {.lanes = lanes, .from = 0, .to = static_cast<std::size_t>(count_)});
 }
 
 void VertexQueue::find_frames() {
@@ -226,25 +163,8 @@ void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays
       media_[lane] = below_media_[lane];
     }
   }
-  PathColumns& paths = outgoing.paths;
-  ColumnList list;
-  list.add(origins_.origin, paths.o);
-  list.add(origins_.direction, paths.d);
-  list.add(ids_, paths.left);
-  list.add(scatter_.key, paths.key);
-  list.add(scatter_.index, paths.index);
-  list.add(slots_, paths.slot);
-  list.add(scatter_.next_throughput, paths.throughput);
-  list.add(scatter_.pdf, paths.pdf);
-  list.add(choices_.points.p, paths.from_p);
-  list.add(scatter_.frame_n, paths.from_n);
-  list.add(media_, paths.media);
-  list.add(scatterings_, paths.scatterings);
-  list.add(kNone, paths.is_scattered);
-  list.add(channels_, paths.channel);
-  list.add(widths_, paths.begin);
-  list.add(spreads_, paths.spread);
-  list.append(kernels_, {.lanes = found, .from = 0, .to = outgoing.count});
+  if (to_paths_.begins(&outgoing.paths)) list_next(outgoing.paths);
+  to_paths_.append(kernels_, {.lanes = found, .from = 0, .to = outgoing.count});
   outgoing.count += static_cast<std::size_t>(std::popcount(found));
 }
 

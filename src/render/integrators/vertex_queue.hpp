@@ -3,6 +3,7 @@
 /// time.
 
 #include "accel/ray_tracer.hpp"
+#include "render/integrators/column_list.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/shadow_rays.hpp"
 #include "render/integrators/vertex_group.hpp"
@@ -52,8 +53,11 @@ class VertexQueue {
   void finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing);
 
  private:
-  /// Adds the values that only surfaces with features have.
-  void add_extensions(Lanes lanes, const VertexGroup& group);
+  /// List the arrays that add() and continue_paths() copy.
+  void list_paths(const PathColumns& paths);
+  void list_group(const VertexGroup& group);
+  void list_extensions(const VertexGroup& group);
+  void list_next(PathColumns& paths);
   void find_frames();
   void sample_lights(const WaveStep& step, const Lighting& lighting);
   /// Reduces the light of the samples in the given lanes by the media around the vertices.
@@ -66,6 +70,9 @@ class VertexQueue {
   bsdf::Features features_;
   const ShadingKernels& kernels_;
   int count_ = 0;
+  ColumnList from_paths_, from_group_, to_paths_;
+  ColumnList from_maps_;        // for lanes with normal maps
+  ColumnList from_extensions_;  // for surfaces with features
   HitPointLanes left_{};
   LaneNumbers ids_{}, on_mesh_{}, slots_{}, channels_{}, below_channels_{};
   LaneNumbers media_{}, below_media_{}, scatterings_{};

@@ -9,6 +9,10 @@ namespace microtrace {
 /// Copies the given lanes of `from`, in order, to consecutive elements from to[0] on.
 template <int N>
 void append_column(const float* from, Lanes lanes, const int* indices, int count, float* to) {
+  if (lanes == kAllLanes<kShadingLanes>) {
+    __builtin_memcpy(to, from, sizeof(LaneFloats));
+    return;
+  }
 #if defined(__AVX512F__)
   if constexpr (N == 16) {
     const __m512 packed = _mm512_maskz_compress_ps(static_cast<__mmask16>(lanes), load<N>(from));
@@ -16,10 +20,6 @@ void append_column(const float* from, Lanes lanes, const int* indices, int count
     return;
   }
 #endif
-  if (lanes == kAllLanes<kShadingLanes>) {
-    __builtin_memcpy(to, from, sizeof(LaneFloats));
-    return;
-  }
   for (int i = 0; i < count; ++i) to[i] = from[indices[i]];
 }
 
