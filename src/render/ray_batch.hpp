@@ -20,17 +20,15 @@ class RayBatch {
         no_ray_{.color = Vec3(0), .alpha = has_alpha ? 0.0F : 1.0F},
         is_data_(integrator.is_data()) {}
 
-  /// True if there is no space for this number of further rays.
-  [[nodiscard]] bool is_full(std::size_t more = 1) const { return count_ + more > Size; }
+  [[nodiscard]] bool is_full() const { return count_ == Size; }
 
   void add(std::size_t pixel, const SampleId& id) {
     ids_[count_] = id;
     pixels_[count_++] = pixel;
   }
-  /// The rays of the last `count` calls of add(), which the caller sets.
-  [[nodiscard]] std::span<Ray> last_rays(std::size_t count) {
-    return std::span(rays_).subspan(count_ - count, count);
-  }
+  [[nodiscard]] std::span<const SampleId> ids() const { return std::span(ids_).first(count_); }
+  /// The rays of these samples, which the caller sets.
+  [[nodiscard]] std::span<Ray> rays() { return std::span(rays_).first(count_); }
 
   struct Results {
     std::span<const std::size_t> pixels;

@@ -81,7 +81,7 @@ void TilePainter::paint_block(const PixelRect& block) const {
       for (std::uint32_t k = 0; k < pattern_.size(); ++k) {
         if (batch.is_full()) trace();
         batch.add(pixel, {.x = x, .y = y, .index = k});
-        batch.last_rays(1)[0] = ray_(x + pattern_[k].x, y + pattern_[k].y);
+        batch.rays().back() = ray_(x + pattern_[k].x, y + pattern_[k].y);
       }
     }
   }

@@ -99,11 +99,11 @@ struct ShadingKernels {
   /// numbers. A filter of null is the box filter.
   void (*sample_positions)(const std::uint32_t* keys, const std::uint32_t* indices,
                            std::uint32_t number, const FilterTable* filter, double* x, double* y);
-  /// Adds kShadingLanes samples, colors with alpha, to the sums of consecutive pixels, except
-  /// samples that are not numbers or whose terms exceed TermSums::kLimit. Returns the latter's
-  /// lanes.
-  std::uint32_t (*sum_samples)(const SumSetup& setup, const float* samples, TermSums& sums,
-                               int pixel);
+  /// Adds one sample to each of kShadingLanes consecutive pixels, except samples that are not
+  /// numbers or whose terms exceed TermSums::kLimit. Returns the latter's lanes. The samples are
+  /// colors with alpha, at a distance of `stride` samples.
+  std::uint32_t (*sum_samples)(const SumSetup& setup, const float* samples, std::size_t stride,
+                               TermSums& sums, std::size_t pixel);
   void (*find_points)(HitLanes& lanes);
   void (*find_normals)(const NormalLanes& points, NormalMapLanes& map);
   void (*choose_lights)(const LightChoiceSetup& setup, LightChoices<kShadingLanes>& lanes);

@@ -34,18 +34,19 @@ SampleTerms<N> sample_terms(const Double<N> (&color)[3], const Double<N>& alpha,
   return terms;
 }
 
-/// Loads N consecutive colors with alpha, one component per vector.
+/// Loads N colors with alpha at a distance of `stride` samples, one component per vector.
 template <int N>
-void load_samples(const float* samples, Float<N> (&components)[4]) {
+void load_samples(const float* samples, std::size_t stride, Float<N> (&components)[4]) {
+  const auto sample = [&](int i) { return samples + 4 * stride * static_cast<std::size_t>(i); };
   if constexpr (N % 4 != 0) {
     for (int c = 0; c < 4; ++c) {
-      for (int i = 0; i < N; ++i) set_lane(components[c], i, samples[4 * i + c]);
+      for (int i = 0; i < N; ++i) set_lane(components[c], i, sample(i)[c]);
     }
   } else {
     float columns[4][N];
     for (int i = 0; i < N; i += 4) {
       Float<4> rows[4];
-      for (int k = 0; k < 4; ++k) rows[k] = load<4>(samples + 4 * (i + k));
+      for (int k = 0; k < 4; ++k) rows[k] = load<4>(sample(i + k));
       transpose<4>(rows);
       for (int c = 0; c < 4; ++c) store<4>(columns[c] + i, rows[c]);
     }
@@ -70,10 +71,11 @@ void add_term(const Double<N>& term, double part_scale, std::int64_t* whole, std
 
 /// Adds N samples, except those that are too large for TermSums or not numbers. Returns the latter.
 template <int N>
-Lanes sum_samples_of(const SumSetup& setup, const float* samples, TermSums& sums, int pixel) {
+Lanes sum_samples_of(const SumSetup& setup, const float* samples, std::size_t stride,
+                     TermSums& sums, std::size_t pixel) {
   using D = Double<N>;
   Float<N> components[4];
-  load_samples<N>(samples, components);
+  load_samples<N>(samples, stride, components);
   const D color[3] = {to_double<N>(components[0]), to_double<N>(components[1]),
                       to_double<N>(components[2])};
   SampleTerms<N> terms =
@@ -91,15 +93,16 @@ Lanes sum_samples_of(const SumSetup& setup, const float* samples, TermSums& sums
   add(TermSums::alpha, terms.alpha);
   add(TermSums::square, terms.square);
   const Lanes added = less<N>(Float<N>{}, to_single<N>(fits ? D{} + 1 : D{}));
-  for (int i = 0; i < N; ++i) sums.count[pixel + i] += added >> i & 1U;
+  for (int i = 0; i < N; ++i) sums.count[pixel + static_cast<std::size_t>(i)] += added >> i & 1U;
   return kAllLanes<N> & ~added;
 }
 
 template <int N>
-Lanes sum_samples(const SumSetup& setup, const float* samples, TermSums& sums, int pixel) {
+Lanes sum_samples(const SumSetup& setup, const float* samples, std::size_t stride, TermSums& sums,
+                  std::size_t pixel) {
   Lanes left = 0;
-  for (int i = 0; i < kShadingLanes; i += N)
-    left |= sum_samples_of<N>(setup, samples + 4 * i, sums, pixel + i) << i;
+  for (std::size_t i = 0; i < kShadingLanes; i += N)
+    left |= sum_samples_of<N>(setup, samples + 4 * stride * i, stride, sums, pixel + i) << i;
   return left;
 }
 

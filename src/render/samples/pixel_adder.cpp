@@ -3,6 +3,7 @@
 #include "float_environment.hpp"
 #include "render/samples/add_sample.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 
@@ -21,8 +22,8 @@ static_assert(kRandomBatch <= 1024, "see TermSums");
 }  // namespace
 
 PixelAdder::PixelAdder(const ShadingKernels& kernels, const Vec3& background,
-                       std::span<PixelSum> sums)
-    : kernels_(kernels), background_(background), sums_(sums) {
+                       std::span<PixelSum> sums, std::span<const std::size_t> places)
+    : kernels_(kernels), background_(background), sums_(sums), places_(places) {
   const PixelSum sum;
   const double color = part_scale(sum.color[0]);
   setup_ = {.background = {background.x, background.y, background.z},
@@ -30,37 +31,51 @@ PixelAdder::PixelAdder(const ShadingKernels& kernels, const Vec3& background,
             .part_scale = {color, color, color, part_scale(sum.alpha), part_scale(sum.square)}};
 }
 
-void PixelAdder::add(const RayBatch<kRandomBatch>::Results& batch) {
+std::size_t PixelAdder::samples_per_pixel(const Results& batch, std::size_t first) {
+  const auto pixels = batch.pixels.subspan(first);
+  const std::size_t count = static_cast<std::size_t>(
+      std::ranges::find_if(pixels, [&](std::size_t pixel) { return pixel != pixels[0]; }) -
+      pixels.begin());
+  if (count * kShadingLanes > pixels.size()) return 0;
+  // The pixels of each round of samples are in ascending order.
+  for (std::size_t lane = 0; lane < kShadingLanes; ++lane) {
+    const std::size_t pixel = pixels[0] + lane;
+    if (pixels[lane * count] != pixel || pixels[(lane + 1) * count - 1] != pixel) return 0;
+  }
+  return count;
+}
+
+void PixelAdder::add(const Results& batch) {
   const FloatEnvironment environment;
   const auto& [pixels, samples] = batch;
-  constexpr std::size_t kLanes = kShadingLanes;
-  for (std::size_t i = 0; i < samples.size();) {
-    // The pixels of each round of samples are in ascending order.
-    if (i + kLanes > samples.size() || pixels[i + kLanes - 1] - pixels[i] != kLanes - 1) {
-      add_one(pixels[i], samples[i]);
-      ++i;
+  for (std::size_t first = 0; first < samples.size();) {
+    const std::size_t count = samples_per_pixel(batch, first);
+    if (count == 0) {
+      add_one(pixels[first], samples[first]);
+      ++first;
       continue;
     }
-    Lanes left =
-        kernels_.sum_samples(setup_, &samples[i].color.x, terms_, static_cast<int>(pixels[i]));
-    for (; left != 0; left &= left - 1) {
-      const std::size_t k = i + static_cast<std::size_t>(std::countr_zero(left));
-      add_one(pixels[k], samples[k]);
+    for (std::size_t i = first; i < first + count; ++i) {
+      Lanes left = kernels_.sum_samples(setup_, &samples[i].color.x, count, terms_, pixels[first]);
+      for (; left != 0; left &= left - 1) {
+        const std::size_t k = i + count * static_cast<std::size_t>(std::countr_zero(left));
+        add_one(pixels[k], samples[k]);
+      }
     }
-    i += kLanes;
+    first += count * kShadingLanes;
   }
   samples_ += samples.size();
   move_terms();
 }
 
 void PixelAdder::add_one(std::size_t pixel, const Sample& sample) {
-  if (!add_sample(sums_[pixel], sample.color, sample.alpha, background_)) ++invalid_;
+  if (!add_sample(sums_[places_[pixel]], sample.color, sample.alpha, background_)) ++invalid_;
 }
 
 void PixelAdder::move_terms() {
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
     if (terms_.count[i] == 0) continue;
-    PixelSum& sum = sums_[i];
+    PixelSum& sum = sums_[places_[i]];
     const auto move = [&](TermSums::Term term, auto& to) {
       to.add(terms_.whole[term][i], terms_.part[term][i]);
     };

@@ -3,6 +3,7 @@
 
 #include "render/camera_rays.hpp"
 #include "render/kernels/kernel.hpp"
+#include "render/ray_batch.hpp"
 #include "render/samples/pixel_filter.hpp"
 #include "render/sampling/time_slice.hpp"
 
@@ -34,6 +35,12 @@ class RandomPainter {
   [[nodiscard]] std::uint64_t invalid_samples() const { return invalid_; }
 
  private:
+  class TilePixels;
+  using Batch = RayBatch<kRandomBatch>;
+
+  /// Makes the rays of the batch's samples.
+  void make_rays(Batch& batch) const;
+
   const World& world_;
   const Integrator& integrator_;
   CameraRays ray_;

@@ -56,28 +56,31 @@ std::vector<Sample> samples_of(std::size_t count, std::mt19937& random) {
   return samples;
 }
 
-// Any number of pixels, also with gaps, gives the sums of single samples.
+// Any number of pixels and samples, also with gaps, gives the sums of single samples.
 TEST(FilmKernels, SumSamplesLikePixelSums) {
   std::mt19937 random(1);
   for (const ShadingKernels* kernels : kShadingKernels.available()) {
     for (const std::size_t pixels : {1, 7, 16, 17, 40, 64}) {
       for (const Vec3 background : {Vec3(0), Vec3(0.25F, 3, 1e12F)}) {
         std::vector<PixelSum> sums(pixels), expected(pixels);
-        PixelAdder adder(*kernels, background, sums);
+        std::vector<std::size_t> places(pixels);
+        for (std::size_t i = 0; i < pixels; ++i) places[i] = pixels - 1 - i;
+        PixelAdder adder(*kernels, background, sums, places);
         std::uint64_t count = 0, invalid = 0;
-        for (int batch = 0; batch < 3; ++batch) {
-          std::vector<std::size_t> order;
-          while (order.size() + pixels <= kRandomBatch) {
-            const std::size_t skipped = batch == 2 ? random() % (2 * pixels) : pixels;
-            for (std::size_t i = 0; i < pixels; ++i) {
-              if (i != skipped) order.push_back(i);
+        for (const std::size_t each : {1, 2, 5, 16}) {
+          for (const bool has_gaps : {false, true}) {
+            std::vector<std::size_t> order;
+            while (order.size() + each * pixels <= kRandomBatch) {
+              for (std::size_t i = 0; i < each * pixels; ++i) {
+                if (!has_gaps || random() % 50 != 0) order.push_back(i / each);
+              }
             }
-          }
-          const std::vector<Sample> samples = samples_of(order.size(), random);
-          adder.add({.pixels = order, .samples = samples});
-          for (std::size_t i = 0; i < samples.size(); ++i, ++count) {
-            const auto& [color, alpha] = samples[i];
-            if (!expected[order[i]].add(color, alpha, background)) ++invalid;
+            const std::vector<Sample> samples = samples_of(order.size(), random);
+            adder.add({.pixels = order, .samples = samples});
+            for (std::size_t i = 0; i < samples.size(); ++i, ++count) {
+              const auto& [color, alpha] = samples[i];
+              if (!expected[places[order[i]]].add(color, alpha, background)) ++invalid;
+            }
           }
         }
         EXPECT_EQ(sums, expected) << kernels->name << " " << pixels;
