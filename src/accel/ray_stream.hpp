@@ -69,8 +69,8 @@ class RayStream {
     for_each_unsuited(other);
   }
 
-  /// Sets the triangles of meshes whose fronts any() passes through, one bit per primitive; null
-  /// for none.
+  /// Sets the triangles of meshes whose fronts rays in columns pass through, one bit per primitive;
+  /// null for none.
   void set_open_fronts(const std::uint32_t* triangles) { target_.tree.open_fronts = triangles; }
 
   /// Do the same for rays in columns. `ids` are those of the hits, or kNoPrimitive.

@@ -50,28 +50,13 @@ void RayTracer::begin(const Bvh& bvh) {
   memory_->queries.emplace(*bvh.impl_);
 }
 
-void RayTracer::closest(const RayColumns& rays, std::span<PrimitiveId> ids) {
-  const FloatEnvironment environment;
-  const Bvh::Impl& bvh = queries().bvh;
-  const auto ask_one = [&](std::size_t i) {
-    const std::optional<Hit> hit = bvh.intersect(rays[i]);
-    ids[i] = hit ? hit->id : kNoPrimitive;
-  };
-  if (!bvh.has_tree) {
-    for (std::size_t i = 0; i < rays.count; ++i) ask_one(i);
-    return;
-  }
-  for_each_part(rays, [&](const RayColumns& part, std::size_t first) {
-    queries().stream.closest(part, ids.subspan(first, part.count),
-                             [&](std::size_t i) { ask_one(first + i); });
-  });
-}
-
 bool RayTracer::knows_fronts() const {
   return queries().bvh.tree.duplicates.empty();
 }
 
-void RayTracer::any(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids) {
+template <class Query>
+void RayTracer::trace(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids,
+                      const Query& query) {
   const FloatEnvironment environment;
   const Bvh::Impl& bvh = queries().bvh;
   const auto ask_one = [&](std::size_t i) {
@@ -87,10 +72,18 @@ void RayTracer::any(const RayColumns& rays, const std::uint32_t* open, std::span
   }
   queries().stream.set_open_fronts(open);
   for_each_part(rays, [&](const RayColumns& part, std::size_t first) {
-    queries().stream.any(part, ids.subspan(first, part.count),
-                         [&](std::size_t i) { ask_one(first + i); });
+    query(part, ids.subspan(first, part.count), [&](std::size_t i) { ask_one(first + i); });
   });
   queries().stream.set_open_fronts(nullptr);
+}
+
+void RayTracer::closest(const RayColumns& rays, const std::uint32_t* open,
+                        std::span<PrimitiveId> ids) {
+  trace(rays, open, ids, [this](const auto&... part) { queries().stream.closest(part...); });
+}
+
+void RayTracer::any(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids) {
+  trace(rays, open, ids, [this](const auto&... part) { queries().stream.any(part...); });
 }
 
 Hit RayTracer::hit(const Ray& ray, PrimitiveId id) const {

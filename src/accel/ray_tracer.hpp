@@ -21,16 +21,16 @@ class RayTracer {
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
 
-  /// True if any() can pass through fronts, which isn't the case if triangles coincide.
+  /// True if rays can pass through fronts, which isn't the case if triangles coincide.
   [[nodiscard]] bool knows_fronts() const;
 
   /// Selects the Bvh, which must outlive the following queries.
   void begin(const Bvh& bvh);
 
-  /// Sets ids[i] to the primitive that ray i hits first, or to kNoPrimitive.
-  void closest(const RayColumns& rays, std::span<PrimitiveId> ids);
-  /// Sets ids[i] to any primitive that ray i hits, or to kNoPrimitive. Passes through the fronts of
-  /// the triangles `open`, which has one bit per primitive, unless it is null.
+  /// Set ids[i] to the primitive that ray i hits first, or to any primitive that it hits, or to
+  /// kNoPrimitive. Rays pass through the fronts of the triangles `open`, which has one bit per
+  /// primitive, unless it is null.
+  void closest(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids);
   void any(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids);
 
   /// The hit of a ray with the primitive that closest() found.
@@ -44,6 +44,11 @@ class RayTracer {
   [[nodiscard]] Lanes leave(Lanes wanted, OriginLanes& lanes);
 
  private:
+  /// Calls query(rays, ids, ask_one) for parts of the rays, which the stream can trace.
+  template <class Query>
+  void trace(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids,
+             const Query& query);
+
   struct Queries;  // for one Bvh
   struct Memory;   // for the queries of any Bvh
   [[nodiscard]] Queries& queries() const;

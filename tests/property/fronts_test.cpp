@@ -80,10 +80,13 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
     }
     const RayColumns rays = columns.view();
     std::vector<PrimitiveId> ids(rays.count);
-    tracer.closest(rays, ids);
-    std::vector<PrimitiveId> any(rays.count), behind(rays.count);
+    tracer.closest(rays, nullptr, ids);
+    std::vector<PrimitiveId> any(rays.count), behind(rays.count), first_behind(rays.count);
     tracer.any(rays, nullptr, any);
-    if (tracer.knows_fronts()) tracer.any(rays, open.data(), behind);
+    if (tracer.knows_fronts()) {
+      tracer.any(rays, open.data(), behind);
+      tracer.closest(rays, open.data(), first_behind);
+    }
     for (std::size_t i = 0; i < rays.count; ++i) {
       const Ray ray = rays[i];
       std::optional<Hit> hit = bvh.intersect(ray);
@@ -99,6 +102,8 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
       };
       while (hit && is_open(hit->id)) hit = bvh.next(ray, *hit);
       ASSERT_EQ(behind[i] != kNoPrimitive, hit.has_value()) << "scene " << round << ", ray " << i;
+      ASSERT_EQ(first_behind[i], hit ? hit->id : kNoPrimitive)
+          << "scene " << round << ", ray " << i;
       if (hit) {
         ASSERT_FALSE(is_open(behind[i]));
       }

@@ -185,8 +185,8 @@ inline bool is_open_front(const TreeView& tree, std::uint32_t id) {
 }
 
 /// Sets `best` to the nearest hit among the lanes that a block's test has not rejected, if that hit
-/// is nearer. With kAny, stops at the first hit, and passes through open fronts. `fallback` decides
-/// the uncertain lanes.
+/// is nearer. Passes through open fronts. With kAny, stops at the first hit. `fallback` decides the
+/// uncertain lanes.
 template <int N, bool kAny, class Slowly>
 inline void meet_lanes(const TreeView& tree, const TriangleBlock& block, const BlockTest<N>& test,
                        const KernelRay& ray, ClosestSoFar& best, const Slowly& fallback) {
@@ -195,10 +195,10 @@ inline void meet_lanes(const TreeView& tree, const TriangleBlock& block, const B
     const std::uint32_t id = block.id[lane];
     // A triangle can be in several leaves.
     if (id == best.id || id == ray.omitted_id) continue;
-    if (kAny && is_open_front(tree, id)) {
+    if (is_open_front(tree, id)) {
       const Within front = meets_front(block, lane, ray.d);
       if (front == Within::unsure) fallback(id, best);
-      if (best.id != kNoPrimitive) return;
+      if (kAny && best.id != kNoPrimitive) return;
       if (front != Within::no) continue;
     }
     consider(block, lane, {ray.o, ray.d, ray.t_min},

@@ -41,6 +41,7 @@ class FewTrianglesWalk {
     }
     const F begin = load<N>(stream_.t_begin + first_), t_min = load<N>(stream_.t_min + first_);
     const F d_sum = load<N>(stream_.d_sum + first_);
+    const bool has_open = tree_.open_fronts != nullptr;
     F best_lo = load<N>(stream_.best_lo + first_), best_hi = load<N>(stream_.best_hi + first_);
     for (int i = 0; i < tree_.few->count; ++i) {
       const FewTriangles::Entry& triangle = tree_.few->entries[i];
@@ -51,10 +52,13 @@ class FewTrianglesWalk {
                                   triangle.edge_product, d_sum, begin, limit);
       Lanes maybe = test.maybe & rays;
       if (maybe != 0) maybe &= ~equal_to<N>(stream_.omitted_id + first_, triangle.id);
+      Lanes unsure = 0;
+      if (maybe != 0 && has_open && is_open_front(tree_, triangle.id))
+        pass_fronts(triangle, maybe, unsure);
       if (maybe == 0) continue;
       const Interval<F> t = interval(test.height, test.size, test.height_error, test.size_error);
       const Lanes nearer =
-          maybe & test.certain & less<N>(t.hi, best_lo) & less_equal<N>(t_min, t.lo);
+          maybe & ~unsure & test.certain & less<N>(t.hi, best_lo) & less_equal<N>(t_min, t.lo);
       const Lanes farther = test.certain & less<N>(best_hi, t.lo);
       if (nearer != 0) {
         best_lo = select<N>(nearer, t.lo, best_lo);
@@ -66,7 +70,7 @@ class FewTrianglesWalk {
       if (open == 0) continue;
       store<N>(stream_.best_lo + first_, best_lo);
       store<N>(stream_.best_hi + first_, best_hi);
-      decide(triangle, test, t, open);
+      decide(triangle, test, t, open, unsure);
       best_lo = load<N>(stream_.best_lo + first_);
       best_hi = load<N>(stream_.best_hi + first_);
     }
@@ -89,9 +93,23 @@ class FewTrianglesWalk {
     return less_equal<N>(enter, leave);
   }
 
-  /// Decides the lanes that the comparison of intervals can't decide.
+  /// Removes the lanes whose rays pass through the front of an open triangle. Adds those of which
+  /// this is unsure to `unsure`.
+  void pass_fronts(const FewTriangles::Entry& triangle, Lanes& lanes, Lanes& unsure) const {
+    const TriangleBlock& block = tree_.blocks[triangle.slot / kWidth];
+    for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
+      const int lane = first_lane(rest), ray = first_ + lane;
+      const float d[3] = {stream_.d[0][ray], stream_.d[1][ray], stream_.d[2][ray]};
+      const Within front = meets_front(block, static_cast<int>(triangle.slot % kWidth), d);
+      if (front == Within::yes) lanes &= ~(Lanes{1} << lane);
+      if (front == Within::unsure) unsure |= Lanes{1} << lane;
+    }
+  }
+
+  /// Decides the lanes that the comparison of intervals can't decide. The fallback decides those in
+  /// `unsure`.
   void decide(const FewTriangles::Entry& triangle, const VolumeTest<N, F>& test,
-              const Interval<F>& t, Lanes lanes) {
+              const Interval<F>& t, Lanes lanes, Lanes unsure) {
     const TriangleBlock& block = tree_.blocks[triangle.slot / kWidth];
     const int k = static_cast<int>(triangle.slot % kWidth);
     const Lanes has_t = less<N>(16 * test.size_error, test.size);
@@ -106,10 +124,13 @@ class FewTrianglesWalk {
       const PossibleHit hit{.t = {t_lo[lane], t_hi[lane]},
                             .is_certain = (test.certain >> lane & 1U) != 0,
                             .has_t = (has_t >> lane & 1U) != 0};
-      consider(block, k, {o, d, stream_.t_min[ray]}, hit, best,
-               [&](std::uint32_t id, ClosestSoFar& nearest) {
-                 slow_.consider(slow_.context, ray, id, nearest);
-               });
+      const auto fallback = [&](std::uint32_t id, ClosestSoFar& nearest) {
+        slow_.consider(slow_.context, ray, id, nearest);
+      };
+      if ((unsure >> lane & 1U) != 0)
+        fallback(triangle.id, best);
+      else
+        consider(block, k, {o, d, stream_.t_min[ray]}, hit, best, fallback);
       stream_.best_lo[ray] = best.lo;
       stream_.best_hi[ray] = best.hi;
       stream_.best_id[ray] = best.id;

@@ -173,10 +173,11 @@ struct Kernels {
   void (*closest_of_packet)(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow);
   /// Sets the members of a stream below the dashed line, without hits.
   void (*prepare_stream)(KernelStream& stream);
-  /// Does what `closest` does for all rays of a prepared stream.
+  /// Does what `closest` does for all rays of a prepared stream, except for hits of open_fronts,
+  /// for which `slow` decides if a ray's side is uncertain.
   void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
   /// Finds any hit within the interval of each ray that has no hit yet, except for hits of
-  /// open_fronts, for which `slow` decides if a ray's side is uncertain.
+  /// open_fronts as well.
   void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
   /// Fills t with the exact parameters rounded to nearest. Returns the set of hits whose t is
   /// certainly right.

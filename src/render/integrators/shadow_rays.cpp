@@ -46,39 +46,37 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
                                 Backfaces backfaces, std::span<Vec3> colors) {
   const bool passes_backs = backfaces == Backfaces::pass;
   std::uint64_t beyond = 0;
-  // False if each surface blocks the light.
-  const bool may_pass = !shading.all_cover() || (passes_backs && shading.has_open_backs());
-  const bool knows_fronts =
-      passes_backs && shading.open_fronts() != nullptr && tracer.knows_fronts();
-  // False if only surfaces that are not opaque let light through.
-  const bool may_pass_opaque = passes_backs && shading.has_open_backs() && !knows_fronts;
+  const std::uint32_t* open =
+      passes_backs && tracer.knows_fronts() ? shading.open_fronts() : nullptr;
+  // True if opaque surfaces let light pass through their backs, and the queries don't.
+  const bool may_pass_opaque = passes_backs && shading.has_open_backs() && open == nullptr;
   const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
     colors[rays.slot[i]] += part * vector_of(rays.light, i);
   };
+  // Adds the light that passes the surfaces of ray i, whose query has found a blocker.
+  const auto add_rest = [&](const ShadowColumns& arrays, const RayColumns& rays, std::size_t i,
+                            const std::optional<PrimitiveId>& target) {
+    if (!may_pass_opaque && shading.is_opaque(hits_[i])) return;
+    const Ray ray = rays[i];
+    add(arrays, i,
+        transmittance(bvh, shading, passes_backs, ray, bvh.intersect(ray), target, beyond));
+  };
   const RayColumns free = columns_of(free_.rays, free_.count);
-  tracer.any(free, knows_fronts ? shading.open_fronts() : nullptr,
-             std::span(hits_).first(free_.count));
+  tracer.any(free, open, std::span(hits_).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
-    if (hits_[i] == kNoPrimitive) {
+    if (hits_[i] == kNoPrimitive)
       add(free_.rays, i, 1);
-    } else if (may_pass_opaque || !shading.is_opaque(hits_[i])) {
-      const Ray ray = free[i];
-      const std::optional<Hit> hit = bvh.intersect(ray);
-      add(free_.rays, i, transmittance(bvh, shading, passes_backs, ray, hit, std::nullopt, beyond));
-    }
+    else
+      add_rest(free_.rays, free, i, std::nullopt);
   }
   const RayColumns aimed = columns_of(aimed_.rays, aimed_.count);
-  tracer.closest(aimed, std::span(hits_).first(aimed_.count));
+  tracer.closest(aimed, open, std::span(hits_).first(aimed_.count));
   for (std::size_t i = 0; i < aimed_.count; ++i) {
     const PrimitiveId target = aimed_.rays.target[i];
-    if (hits_[i] == target) {
+    if (hits_[i] == target)
       add(aimed_.rays, i, 1);
-    } else if (may_pass && hits_[i] != kNoPrimitive) {
-      const Ray ray = aimed[i];
-      add(aimed_.rays, i,
-          transmittance(bvh, shading, passes_backs, ray, tracer.hit(ray, hits_[i]), target,
-                        beyond));
-    }
+    else if (hits_[i] != kNoPrimitive)
+      add_rest(aimed_.rays, aimed, i, target);
   }
   free_.count = aimed_.count = 0;
   return beyond;

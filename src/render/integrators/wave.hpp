@@ -109,8 +109,8 @@ class Wave {
   /// True if path i, whose first hit is the front of a surface with an open back, may get light
   /// from behind it.
   [[nodiscard]] bool may_get_light(std::size_t i) const {
-    return !knows_blocked() || blockers_[i] == kNoPrimitive || lighting_->has_surfaces() ||
-           !shading_->is_opaque(blockers_[i]);
+    return !knows_blocked() || blockers_[i] == kNoPrimitive || !shading_->is_opaque(blockers_[i]) ||
+           shading_->shines(blockers_[i]);
   }
   /// True if path i has its maximum length.
   [[nodiscard]] bool is_last(std::size_t i) const {
@@ -147,7 +147,8 @@ class Wave {
   std::unique_ptr<PathColumns> paths_, next_paths_;
   std::array<PrimitiveId, kRandomBatch> hits_;  // kNoPrimitive for rays without a hit
   std::array<std::optional<Hit>, kRandomBatch> camera_hits_;
-  /// Any primitive that blocks the light from behind, or kNoPrimitive.
+  /// The first primitive that blocks the light from behind, or kNoPrimitive. Any primitive if there
+  /// are no emissive surfaces.
   std::array<PrimitiveId, kRandomBatch> blockers_;
   // Working memory of find_blocked().
   RayArrays open_rays_;

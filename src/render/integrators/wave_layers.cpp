@@ -16,8 +16,12 @@ void Wave::find_blocked() {
     open_rays_.left[count] = paths.left[i];
     open_paths_[count++] = i;
   }
-  tracer_.any(columns_of(open_rays_, count), shading_->open_fronts(),
-              std::span(open_blockers_).first(count));
+  const RayColumns rays = columns_of(open_rays_, count);
+  const auto blockers = std::span(open_blockers_).first(count);
+  if (lighting_->has_surfaces())
+    tracer_.closest(rays, shading_->open_fronts(), blockers);
+  else
+    tracer_.any(rays, shading_->open_fronts(), blockers);
   for (std::size_t k = 0; k < count; ++k) blockers_[open_paths_[k]] = open_blockers_[k];
 }
 

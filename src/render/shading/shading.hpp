@@ -184,6 +184,10 @@ class Shading {
   [[nodiscard]] bool is_opaque(PrimitiveId id) const {
     return all_cover_ || looks_[entries_[primitives_.object_index(id)].look].is_opaque;
   }
+  /// True if the primitive may be emissive.
+  [[nodiscard]] bool shines(PrimitiveId id) const {
+    return looks_[entries_[primitives_.object_index(id)].look].shines();
+  }
   [[nodiscard]] bool is_open_front(PrimitiveId id) const {
     return (open_fronts_[id / 32] >> id % 32 & 1U) != 0;
   }
