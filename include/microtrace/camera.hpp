@@ -204,6 +204,14 @@ class MICROTRACE_EXPORT RayGenerator {
   /// Returns the derivatives of a ray of this camera per pixel. For an environment camera, their
   /// signs may be reversed.
   [[nodiscard]] RayDifferential differential(const Ray& ray) const;
+  /// The distance between the points of a ray and of the ray one pixel below is about begin +
+  /// spread times the distance from the camera, in scene units.
+  struct RowSpacing {
+    double begin = 0, spread = 0;
+  };
+  /// Computes the spacings of the rays with the directions (d[0][i], d[1][i], d[2][i]). Faster than
+  /// differential(), in particular for sixteen rays of a perspective camera.
+  void row_spacings(const float* const (&d)[3], std::span<RowSpacing> spacings) const;
 
  private:
   friend class SegmentWidener;  // projects points to pixels

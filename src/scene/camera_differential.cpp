@@ -1,8 +1,11 @@
 #include "float_environment.hpp"
+#include "scene/kernels/dispatch.hpp"
+#include "scene/kernels/perspective.hpp"
 #include "scene/lens/lens.hpp"
 
 #include <microtrace/camera.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,12 +17,9 @@ RayDifferential RayGenerator::differential(const Ray& ray) const {
   const FloatEnvironment environment;
   const DVec3 d(ray.d);
   switch (kind_) {
-    case Kind::perspective: {
-      // Differentiates d = toward / |toward|, where `toward` has depth 1.
-      const double depth = glm::dot(forward_, d);
-      return {.d_dx = depth * (right_ - d * glm::dot(d, right_)),
-              .d_dy = depth * (down_ - d * glm::dot(d, down_))};
-    }
+    case Kind::perspective:
+      return {.d_dx = direction_step<1>(forward_, right_, d),
+              .d_dy = direction_step<1>(forward_, down_, d)};
     case Kind::orthographic:
       return {.o_dx = right_, .o_dy = down_};
     case Kind::environment: {
@@ -39,6 +39,25 @@ RayDifferential RayGenerator::differential(const Ray& ray) const {
     }
   }
   return {};
+}
+
+void RayGenerator::row_spacings(const float* const (&d)[3], std::span<RowSpacing> spacings) const {
+  const FloatEnvironment environment;
+  constexpr std::size_t kMost = 16;
+  std::array<double, kMost> spreads;
+  if (kind_ == Kind::perspective && spacings.size() == kMost) {
+    static const SceneKernels& kernels = kSceneKernels.best();
+    kernels.row_spreads(forward_, down_, d, spreads.data(), kMost);
+    for (std::size_t i = 0; i < kMost; ++i) spacings[i] = {.spread = spreads[i]};
+    return;
+  }
+  for (std::size_t i = 0; i < spacings.size(); ++i) {
+    const Vec3 direction(d[0][i], d[1][i], d[2][i]);
+    const RayDifferential step = differential({.d = direction});
+    const DVec3 wide(direction);
+    spacings[i] = {.begin = std::sqrt(glm::dot(step.o_dy, step.o_dy)),
+                   .spread = std::sqrt(glm::dot(step.d_dy, step.d_dy) / glm::dot(wide, wide))};
+  }
 }
 
 }  // namespace microtrace

@@ -96,8 +96,11 @@ void FeatureTracer::trace(std::span<const Ray> rays, std::span<DenoiseFeatures> 
   count_ = rays.size();
   const float sample_width = 1 / std::sqrt(static_cast<float>(world_.samples));
   for (std::size_t i = 0; i < count_; ++i) {
+    const Vec3& d = rays[i].d;
+    RayGenerator::RowSpacing spacing;
+    world_.camera.row_spacings({&d.x, &d.y, &d.z}, {&spacing, 1});
     rays_[i] = rays[i];
-    paths_[i] = {.slot = i, .footprint = camera_footprint(world_.camera, rays[i], sample_width)};
+    paths_[i] = {.slot = i, .footprint = camera_footprint(spacing, sample_width)};
   }
   std::array<std::optional<Hit>, kMostPaths> hits;
   for (depth_ = 1; count_ > 0; ++depth_) {

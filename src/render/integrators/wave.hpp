@@ -50,7 +50,7 @@ class Wave {
   /// Advances the paths from `first` on that hit something. Returns the lanes of those that leave
   /// the scene nevertheless.
   [[nodiscard]] Lanes meet_surfaces(std::size_t first);
-  /// Sets the footprints of the camera paths from `first` on that hit something.
+  /// Sets the footprints of the camera paths in the group from `first` on.
   void widen(std::size_t first);
   /// Sets the vertices of the group's lanes whose surfaces need no further tests. Returns these
   /// lanes.

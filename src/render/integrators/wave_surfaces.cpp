@@ -6,6 +6,7 @@
 #include "render/shading/footprint.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace microtrace {
@@ -32,11 +33,13 @@ Lanes Wave::meet_surfaces(std::size_t first) {
 
 void Wave::widen(std::size_t first) {
   PathColumns& paths = *paths_;
-  for (Lanes rest = vertices_.group().hits.hit; rest != 0; rest &= rest - 1) {
-    const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(rest));
-    const Footprint footprint = camera_footprint(world_->camera, paths.ray(i), step_.sample_width);
-    paths.begin[i] = footprint.begin;
-    paths.spread[i] = footprint.spread;
+  std::array<RayGenerator::RowSpacing, kShadingLanes> spacings;
+  world_->camera.row_spacings({paths.d[0] + first, paths.d[1] + first, paths.d[2] + first},
+                              spacings);
+  for (std::size_t lane = 0; lane < kShadingLanes; ++lane) {
+    const Footprint footprint = camera_footprint(spacings[lane], step_.sample_width);
+    paths.begin[first + lane] = footprint.begin;
+    paths.spread[first + lane] = footprint.spread;
   }
 }
 

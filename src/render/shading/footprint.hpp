@@ -1,10 +1,5 @@
 #pragma once
 #include <microtrace/camera.hpp>
-#include <microtrace/ray.hpp>
-
-#include <cmath>
-
-#include <glm/geometric.hpp>
 
 namespace microtrace {
 
@@ -17,14 +12,10 @@ struct Footprint {
 };
 
 /// The footprint of a camera ray. `sample_width` is the distance between samples in pixels.
-[[nodiscard]] inline Footprint camera_footprint(const RayGenerator& camera, const Ray& ray,
+[[nodiscard]] inline Footprint camera_footprint(const RayGenerator::RowSpacing& spacing,
                                                 float sample_width) {
-  const RayDifferential step = camera.differential(ray);
-  const DVec3 d(ray.d);
-  const double spread = std::sqrt(glm::dot(step.d_dy, step.d_dy) / glm::dot(d, d));
-  const double begin = std::sqrt(glm::dot(step.o_dy, step.o_dy));
-  return {.begin = static_cast<float>(begin) * sample_width,
-          .spread = static_cast<float>(spread) * sample_width};
+  return {.begin = static_cast<float>(spacing.begin) * sample_width,
+          .spread = static_cast<float>(spacing.spread) * sample_width};
 }
 
 }  // namespace microtrace

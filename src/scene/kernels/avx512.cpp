@@ -3,5 +3,5 @@
 
 namespace microtrace {
 const SceneKernels kAvx512Scene{"avx512", find_surfaces<kDoubleLanes<16>>,
-                                perspective_rays<kDoubleLanes<16>>};
+                                perspective_rays<kDoubleLanes<16>>, row_spreads<kDoubleLanes<16>>};
 }

@@ -59,6 +59,10 @@ struct SceneKernels {
   /// Sets rays[i] to the ray through the pixel coordinates (x[i], y[i]).
   void (*perspective_rays)(const PerspectiveRays& camera, const double* x, const double* y,
                            Ray* rays, std::size_t count);
+  /// Computes the change of the directions d of a perspective camera from row to row, divided by
+  /// their lengths. `down` is the change of a vector of depth 1. `count` must be a multiple of 8.
+  void (*row_spreads)(const DVec3& forward, const DVec3& down, const float* const (&d)[3],
+                      double* spreads, std::size_t count);
 };
 
 extern const SceneKernels kPortableScene;

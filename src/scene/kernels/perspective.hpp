@@ -95,5 +95,25 @@ void perspective_rays(const PerspectiveRays& camera, const double* x, const doub
   }
 }
 
+/// The derivative of the directions d of a perspective camera per pixel, where `step` is the change
+/// of a vector of depth 1 per pixel. Differentiates d = toward / |toward|.
+template <int N>
+inline Doubles3<N> direction_step(const Doubles3<N>& forward, const Doubles3<N>& step,
+                                  const Doubles3<N>& d) {
+  return dot(forward, d) * (step - d * dot(d, step));
+}
+
+template <int N>
+void row_spreads(const DVec3& forward, const DVec3& down, const float* const (&d)[3],
+                 double* spreads, std::size_t count) {
+  for (std::size_t i = 0; i < count; i += N) {
+    const Doubles3<N> direction{widened<N>(d[0] + i), widened<N>(d[1] + i), widened<N>(d[2] + i)};
+    const Doubles3<N> step =
+        direction_step<N>(all_lanes<N>(forward), all_lanes<N>(down), direction);
+    const Double<N> spread = square_root<N>(dot(step, step) / dot(direction, direction));
+    __builtin_memcpy(spreads + i, &spread, sizeof spread);
+  }
+}
+
 }  // namespace MICROTRACE_KERNELS
 }  // namespace microtrace

@@ -3,5 +3,5 @@
 
 namespace microtrace {
 const SceneKernels kPortableScene{"portable", find_surfaces<kDoubleLanes<4>>,
-                                  perspective_rays<kDoubleLanes<4>>};
+                                  perspective_rays<kDoubleLanes<4>>, row_spreads<kDoubleLanes<4>>};
 }

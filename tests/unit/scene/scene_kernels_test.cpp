@@ -7,6 +7,7 @@
 #include <microtrace/surface_interaction.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -14,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace microtrace {
@@ -135,6 +137,42 @@ TEST(SceneKernels, MakeTheSameRays) {
         EXPECT_GE(rays[i].t_min, camera.least_t_min);
       }
     }
+  }
+}
+
+// Sixteen rays at a time, and one by one.
+TEST(SceneKernels, FindTheSpacingsOfRows) {
+  const Pose pose{.position = {1, 2, 3}, .direction = {0.3, 0.1, -1}};
+  for (const Camera& camera :
+       {Camera(PerspectiveCamera{.pose = pose}), Camera(OrthographicCamera{.pose = pose}),
+        Camera(EnvironmentCamera{.pose = pose}),
+        Camera(CalibratedCamera{.pose = pose, .distortion = FisheyeDistortion{.k1 = 0.1}})}) {
+    const RayGenerator rays(camera, {.width = 40, .height = 31});
+    std::array<float, 16> x, y, z;
+    std::vector<Ray> row(16);
+    rays.centers(5, 7, row);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      x[i] = row[i].d.x, y[i] = row[i].d.y, z[i] = row[i].d.z;
+    std::array<RayGenerator::RowSpacing, 16> spacings;
+    rays.row_spacings({x.data(), y.data(), z.data()}, spacings);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const RayDifferential step = rays.differential(row[i]);
+      EXPECT_EQ(spacings[i].begin, glm::length(step.o_dy));
+      EXPECT_NEAR(spacings[i].spread, glm::length(step.d_dy), 1e-7 * spacings[i].spread);
+      RayGenerator::RowSpacing one;
+      rays.row_spacings({&x[i], &y[i], &z[i]}, {&one, 1});
+      EXPECT_EQ(one.begin, spacings[i].begin);
+      EXPECT_EQ(one.spread, spacings[i].spread);
+    }
+  }
+  for (const SceneKernels* kernels : kSceneKernels.available()) {
+    const std::array<float, 8> x = {1, 0, 0.5F, -3, 1e-20F, 2, 0, 1}, y = {0, 0, 1, 2, -1, 2, 7, 0},
+                               z = {-1, -1, -2, 1, -1, 3, 0.1F, 1e-3F};
+    std::array<double, 8> spreads{}, expected{};
+    const DVec3 forward(0.1, 0.2, -0.9), down(0.001, -0.01, -0.0);
+    kernels->row_spreads(forward, down, {x.data(), y.data(), z.data()}, spreads.data(), 8);
+    kPortableScene.row_spreads(forward, down, {x.data(), y.data(), z.data()}, expected.data(), 8);
+    EXPECT_EQ(spreads, expected) << kernels->name;
   }
 }
 
