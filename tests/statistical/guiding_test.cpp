@@ -141,7 +141,7 @@ TEST(Window, SamplesHaveTheirPdf) {
       for (int column = 0; column < kColumns * kFine; ++column) {
         const double phi = ((column + 0.5) / (kColumns * kFine) - 0.5) * 2 * std::numbers::pi;
         const Vec3 d(DVec3(r * std::cos(phi), y, r * std::sin(phi)));
-        const double mass = double{lighting.environment(context, d).pdf} * 4 * std::numbers::pi /
+        const double mass = double{environment_pdf(lighting, context, d)} * 4 * std::numbers::pi /
                             (kRows * kColumns * kFine * kFine);
         expected[cell_of(d)] += mass * kSamples;
         within += mass;

@@ -63,7 +63,7 @@ Scene lamps(bool with_map) {
 /// Returns the sum of the pdfs of all lights in a direction, including hidden lights.
 double pdf(const Lighting& lighting, const Shading& shading, const Bvh& bvh,
            const LightSampleContext& context, const Vec3& d) {
-  double sum = double{lighting.environment(context, d).pdf};
+  double sum = double{environment_pdf(lighting, context, d)};
   const Ray ray{.o = context.p, .t_min = 0, .d = d};
   for (std::optional<Hit> hit = bvh.intersect(ray); hit; hit = bvh.next(ray, *hit)) {
     const ShadingPoint point = shading.point(ray, *hit);

@@ -33,6 +33,18 @@ inline std::optional<LightSample> light_sample(const Lighting& lighting,
                      .target = target == samples.kNoTarget ? std::nullopt : std::optional(target)};
 }
 
+/// The pdf with which light_sample() samples this unit direction to the environment.
+inline float environment_pdf(const Lighting& lighting, const LightSampleContext& context,
+                             const Vec3& d) {
+  if (!lighting.has_environment()) return 0;
+  Lighting::Escapes escapes;
+  put(escapes.lights.d, 0, d);
+  put(escapes.origins.p, 0, context.p);
+  put(escapes.origins.n, 0, context.n);
+  lighting.environment(kShadingKernels.best(), 1, false, escapes);
+  return escapes.lights.pdf[0];
+}
+
 /// A light chosen from the tree, and its probability. chosen_light() returns nothing if no light
 /// reaches the point.
 struct ChosenLight {
