@@ -55,9 +55,9 @@ class Wave {
   /// Sets the vertices of the group's lanes whose surfaces need no further tests. Returns these
   /// lanes.
   [[nodiscard]] Lanes add_simple(std::size_t first);
-  /// Sets what textures determine in these lanes. Returns the lanes that need no further tests,
-  /// which neither emit nor are cut out by a mask.
-  [[nodiscard]] Lanes add_textures(Lanes lanes);
+  /// Sets what textures and vertex colors determine in these lanes. Returns the lanes that need no
+  /// further tests, which are opaque and emit nothing.
+  [[nodiscard]] Lanes add_varying(Lanes lanes);
   /// Advances the path in a lane, which needs further tests. Returns false if the path leaves the
   /// scene.
   [[nodiscard]] bool step_slowly(std::size_t first, int lane);

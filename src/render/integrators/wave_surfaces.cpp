@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 namespace microtrace {
 
@@ -57,30 +58,33 @@ Lanes Wave::add_simple(std::size_t first) {
     group.media[lane] = 0;
     group.channel[lane] = paths.channel[i];
   }
-  Lanes simple = 0, textured = 0;
+  Lanes simple = 0, varying = 0;
   for (Lanes rest = group.hits.sure; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto k = static_cast<std::size_t>(lane);
     const TexturedMaterial& look = *group.hits.looks[k];
     const bool is_front = hits.from_behind[lane] == 0;
-    if (!look.is_simple || !group.hits.meshes[k]->colors.empty() ||
+    if (!look.is_simple ||
         (is_front ? looks_behind && look.has_open_back && may_get_light(first + k)
                   : !look.has_back) ||
         paths.media[first + k] != 0 || is_last(first + k))
       continue;
     const Lanes bit = Lanes{1} << lane;
     simple |= bit;
-    if (look.is_textured) textured |= bit;
     group.side[lane] = is_front ? 1.0F : -1.0F;
     const BsdfInput& input = *look.constant_but_textures;
     group.features[k] = input.features;
-    if (group.surface_of[k] == &look) continue;
-    group.surface_of[k] = &look;
+    const bool has_colors = !group.hits.meshes[k]->colors.empty();
+    if (look.varies || has_colors) varying |= bit;
+    // Vertex colors replace the base color, which textures replace each time.
+    const TexturedMaterial* const known =
+        std::exchange(group.surface_of[k], has_colors ? nullptr : &look);
+    if (known == &look) continue;
     put_surface(group.surface, lane, input.parameters);
     if (input.features.index() != 0)
       put_extensions(group.surface, lane, input.parameters, input.layers);
   }
-  if (textured != 0) simple = (simple & ~textured) | add_textures(textured);
+  if (varying != 0) simple = (simple & ~varying) | add_varying(varying);
   if (step_.depth == 1) {
     for (Lanes rest = simple; rest != 0; rest &= rest - 1)
       alphas_[paths.slot[first + static_cast<std::size_t>(std::countr_zero(rest))]] = 1;
@@ -89,7 +93,7 @@ Lanes Wave::add_simple(std::size_t first) {
   return simple;
 }
 
-Lanes Wave::add_textures(Lanes lanes) {
+Lanes Wave::add_varying(Lanes lanes) {
   VertexGroup& group = vertices_.group();
   Shading::look_up(group.hits, lanes, group.width, texels_);
   for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
@@ -97,9 +101,12 @@ Lanes Wave::add_textures(Lanes lanes) {
     const auto k = static_cast<std::size_t>(lane);
     const TexturedMaterial& look = *group.hits.looks[k];
     const Material& material = *look.material;
-    const Vec4 base_color = material.base_color * texels_.base_color[k];
+    const Mesh* mesh = group.hits.meshes[k];
+    const Vec4 color =
+        vertex_color(mesh, group.hits.corners[k], got(group.hits.lanes.weights, lane));
+    const Vec4 base_color = material.base_color * color * texels_.base_color[k];
     if ((look.shines() && Vec3(texels_.emissive[k]) * material.emissive != Vec3(0)) ||
-        (material.alpha_mode == AlphaMode::mask && base_color.w < material.alpha_cutoff)) {
+        Shading::coverage(material, base_color.w) != 1) {
       lanes &= ~(Lanes{1} << lane);
       continue;
     }
@@ -109,8 +116,8 @@ Lanes Wave::add_textures(Lanes lanes) {
     group.surface.metallic[lane] = base.metallic;
     group.surface.roughness[lane] = base.roughness;
     if (look[MaterialTexture::normal].map == nullptr) continue;
-    put_normal_map(group, lane, group.hits.meshes[k], group.hits.corners[k],
-                   Vec3(texels_.normal[k]), material.normal_scale);
+    put_normal_map(group, lane, mesh, group.hits.corners[k], Vec3(texels_.normal[k]),
+                   material.normal_scale);
   }
   return lanes;
 }

@@ -20,6 +20,7 @@ void Shading::look_up(const HitGroup& group, Lanes lanes, const LaneFloats& widt
   for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto i = static_cast<std::size_t>(lane);
+    if (!group.looks[i]->is_textured) continue;
     const auto& uv = group.lanes.first_uv;
     addresses[i] = group.looks[i]->layout.texel_address({uv[0][lane], uv[1][lane]},
                                                         widths[lane] * group.lanes.uv_scale[lane]);

@@ -70,15 +70,13 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     has_textures_ |= look.is_textured;
     // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
     if (look.has_rare_textures() || material.anisotropy || encloses_medium(material)) return;
-    if (look.is_textured && material.specular_glossiness) return;
     TexturedMaterial white = look;
     white.slots = {};
     const ShadingPoint anywhere{.at = {}, .look = &white};
     look.constant_but_textures.emplace(parameters(anywhere, 3, nullptr), layers(anywhere));
     const bool may_be_dark = !look.shines() || look[MaterialTexture::emissive].map != nullptr;
-    const bool has_mask = material.alpha_mode == AlphaMode::mask && look.is_textured;
-    look.is_simple =
-        (material.alpha_mode == AlphaMode::opaque || has_mask) && !material.unlit && may_be_dark;
+    look.is_simple = !material.unlit && may_be_dark && !material.specular_glossiness;
+    look.varies = look.is_textured || material.alpha_mode != AlphaMode::opaque;
   };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
@@ -145,7 +143,11 @@ float Shading::coverage(const ShadingPoint& point, bool from_camera) const {
   const Material& material = *point.look->material;
   if (is_missing_back(point) && (from_camera || is_thin_glass(material))) return 0;
   if (material.alpha_mode == AlphaMode::opaque) return 1;
-  const float alpha = base_color(point).w;
+  return coverage(material, base_color(point).w);
+}
+
+float Shading::coverage(const Material& material, float alpha) {
+  if (material.alpha_mode == AlphaMode::opaque) return 1;
   if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1 : 0;
   return std::clamp(alpha, 0.0F, 1.0F);
 }

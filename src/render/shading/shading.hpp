@@ -72,12 +72,14 @@ struct TexturedMaterial {
   /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
   bool has_constant_emission = false;
   bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
-  /// True if constant_but_textures is set, and the surface is opaque or masked, and either dark or
-  /// with an emissive texture.
+  /// True if constant_but_textures is set, the roughness is not given as glossiness, and the
+  /// material is neither unlit nor emissive, except by a texture.
   bool is_simple = false;
   bool is_textured = false;  ///< true if the material has textures
-  bool has_back = false;     ///< has_back(*material)
-  bool is_opaque = false;    ///< true if coverage() is 1 everywhere for rays other than camera rays
+  /// True if the material has textures or an alpha mode, so that points differ.
+  bool varies = false;
+  bool has_back = false;   ///< has_back(*material)
+  bool is_opaque = false;  ///< true if coverage() is 1 everywhere for rays other than camera rays
   /// The BSDF's input for white texels, if it depends on nothing but textures of kFrequent with
   /// shares_address on meshes without vertex colors.
   std::optional<BsdfInput> constant_but_textures{};
@@ -135,8 +137,8 @@ class Shading {
   /// The shading point in a lane of a group, for which find_points() was called. Its width is 0.
   [[nodiscard]] ShadingPoint point(const HitGroup& group, int lane, const Ray& ray,
                                    const Hit& hit) const;
-  /// Looks up the textures of lanes whose materials are textured and have constant_but_textures.
-  /// `widths` are the footprints' widths in world space.
+  /// Looks up the textures of lanes whose materials have constant_but_textures. `widths` are the
+  /// footprints' widths in world space.
   static void look_up(const HitGroup& group, Lanes lanes, const LaneFloats& widths,
                       FrequentTexels& texels);
 
@@ -160,6 +162,8 @@ class Shading {
   /// The opacity at the point. It is the base color's alpha if the material uses alpha. For camera
   /// rays, one-sided surfaces are transparent from behind.
   [[nodiscard]] float coverage(const ShadingPoint& point, bool from_camera) const;
+  /// The opacity of a visible side where the base color has this alpha.
+  [[nodiscard]] static float coverage(const Material& material, float alpha);
 
   /// True if coverage() is 1 everywhere on all materials, from both sides, for rays other than
   /// camera rays.

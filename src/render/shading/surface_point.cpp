@@ -14,9 +14,10 @@ namespace microtrace {
 namespace {
 
 template <typename Value>
-Value weighed(const SurfacePoint& at, const Array<Value>& values) {
-  return at.barycentrics.x * values[at.corners[0]] + at.barycentrics.y * values[at.corners[1]] +
-         at.barycentrics.z * values[at.corners[2]];
+Value weighed(const std::array<std::uint32_t, 3>& corners, const Vec3& weights,
+              const Array<Value>& values) {
+  return weights.x * values[corners[0]] + weights.y * values[corners[1]] +
+         weights.z * values[corners[2]];
 }
 
 }  // namespace
@@ -31,16 +32,22 @@ SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hi
 
 Vec2 SurfacePoint::further_uv(std::uint32_t set) const {
   if (mesh == nullptr || set >= mesh->uv_sets.size() || mesh->uv_sets[set].empty()) return Vec2(0);
-  return weighed(*this, mesh->uv_sets[set]);
+  return weighed(corners, barycentrics, mesh->uv_sets[set]);
 }
 
 Vec4 SurfacePoint::color() const {
-  return mesh == nullptr || mesh->colors.empty() ? Vec4(1) : weighed(*this, mesh->colors);
+  return vertex_color(mesh, corners, barycentrics);
+}
+
+Vec4 vertex_color(const Mesh* mesh, const std::array<std::uint32_t, 3>& corners,
+                  const Vec3& barycentrics) {
+  if (mesh == nullptr || mesh->colors.empty()) return Vec4(1);
+  return weighed(corners, barycentrics, mesh->colors);
 }
 
 Vec4 SurfacePoint::tangent() const {
   if (mesh == nullptr || mesh->tangents.empty()) return Vec4(0);
-  const Vec3 sum(weighed(*this, mesh->tangents));
+  const Vec3 sum(weighed(corners, barycentrics, mesh->tangents));
   const Tangent<1> tangent = tangent_along<1>(sum, mesh->tangents[corners[0]].w, ns);
   return tangent.handedness == 0 ? Vec4(0) : Vec4(tangent.t, tangent.handedness);
 }
@@ -70,7 +77,7 @@ SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, const Vec3& b
   at.corners = mesh.triangles[triangle];
   at.barycentrics = barycentrics;
   at.front = front;
-  at.p = weighed(at, mesh.positions);
+  at.p = weighed(at.corners, barycentrics, mesh.positions);
   const DVec3 a(mesh.positions[at.corners[0]]);
   const DVec3 n = glm::cross(DVec3(mesh.positions[at.corners[1]]) - a,
                              DVec3(mesh.positions[at.corners[2]]) - a);

@@ -39,6 +39,10 @@ struct SurfacePoint {
   [[nodiscard]] Vec2 further_uv(std::uint32_t set) const;
 };
 
+/// The interpolated vertex color; white if there are none.
+[[nodiscard]] Vec4 vertex_color(const Mesh* mesh, const std::array<std::uint32_t, 3>& corners,
+                                const Vec3& barycentrics);
+
 /// The point on any shape, rounded from the result of interact().
 [[nodiscard]] SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hit);
 
