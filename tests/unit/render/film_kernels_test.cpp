@@ -60,14 +60,14 @@ std::vector<Sample> samples_of(std::size_t count, std::mt19937& random) {
 TEST(FilmKernels, SumSamplesLikePixelSums) {
   std::mt19937 random(1);
   for (const ShadingKernels* kernels : kShadingKernels.available()) {
-    for (const std::size_t pixels : {1, 7, 16, 17, 40, 64}) {
+    for (const std::size_t pixels : {1U, 7U, 16U, 17U, 40U, 64U}) {
       for (const Vec3 background : {Vec3(0), Vec3(0.25F, 3, 1e12F)}) {
         std::vector<PixelSum> sums(pixels), expected(pixels);
         std::vector<std::size_t> places(pixels);
         for (std::size_t i = 0; i < pixels; ++i) places[i] = pixels - 1 - i;
         PixelAdder adder(*kernels, background, sums, places);
         std::uint64_t count = 0, invalid = 0;
-        for (const std::size_t each : {1, 2, 5, 16}) {
+        for (const std::size_t each : {1U, 2U, 5U, 16U}) {
           for (const bool has_gaps : {false, true}) {
             std::vector<std::size_t> order;
             while (order.size() + each * pixels <= kRandomBatch) {
