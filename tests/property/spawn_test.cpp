@@ -93,12 +93,12 @@ void check_nearness(const S& shape, const Ray& ray, const Vec3& q, const Vec3& d
   ASSERT_LE(most, is_flat<S> ? 4 : 64) << reproduction(ray, shape) << direction.x;
 }
 
-struct Count {
+struct SpawnCount {
   int hits = 0, spawned = 0;
 };
 
 template <class S>
-void check(Random& random, const Ray& ray, const S& shape, Count& count) {
+void check(Random& random, const Ray& ray, const S& shape, SpawnCount& count) {
   const auto t = exact::first_hit(shape, ray);
   const Vec3 direction = any_direction(random, ray, within(shape));
   const auto q = spawn_origin(shape, ray, direction);
@@ -128,9 +128,9 @@ void check(Random& random, const Ray& ray, const S& shape, Count& count) {
 }
 
 template <class MakeCase>
-Count check_kind(std::uint64_t seed, MakeCase make_case) {
+SpawnCount check_kind(std::uint64_t seed, MakeCase make_case) {
   Random random(seed);
-  Count count;
+  SpawnCount count;
   for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {
     const auto [ray, shape] = make_case(random);
     check(random, ray, shape, count);
@@ -147,7 +147,8 @@ bool has_area(const Triangle& t) {
 TEST(Spawn, Triangle) {
   for (const TriangleKind kind : kTriangleKinds) {
     SCOPED_TRACE(name(kind));
-    const Count count = check_kind(31, [&](Random& random) { return triangle_case(random, kind); });
+    const SpawnCount count =
+        check_kind(31, [&](Random& random) { return triangle_case(random, kind); });
     EXPECT_GT(count.hits, kCasesPerKind / 200);
   }
 }
@@ -172,7 +173,8 @@ template <class MakeCase>
 void check_all_kinds(double least_share, MakeCase make_case) {
   for (const ShapeKind kind : kShapeKinds) {
     SCOPED_TRACE(name(kind));
-    const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
+    const SpawnCount count =
+        check_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
     // Rays hit about one in 25 discs whose numbers span the full float32 range. The number varies
     // randomly.

@@ -1,12 +1,12 @@
 /// Compares radiance with closed-form results or quadrature. The tolerance is a multiple of the
 /// estimate's standard deviation.
+#include "support/pi.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,6 @@
 namespace microtrace {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr ImageSize kSize{.width = 8, .height = 8};
 constexpr std::uint32_t kSeeds = 12;
 /// The error of a mean of kSeeds estimates exceeds this multiple of its standard deviation once in

@@ -1,6 +1,7 @@
 // Compares BsdfModel::spec with an independent implementation of the specification's formulas.
 
 #include "render/sampling/sobol.hpp"
+#include "support/pi.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/direction_pdf.hpp"
 #include "support/shading/scattering.hpp"
@@ -19,8 +20,6 @@
 
 namespace microtrace::bsdf {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Example {
   const char* name;

@@ -10,12 +10,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 
 /// Returns the triangle (0,0,0) (1,0,0) (0,1,0) on a node at x = 100.
-AssetBuilder triangle() {
+AssetBuilder instanced_triangle() {
   AssetBuilder asset;
-  asset.json["extensionsUsed"] = {kExtension};
+  asset.json["extensionsUsed"] = {kInstancing};
   asset.add_object(
       {{"attributes", {{"POSITION", asset.add_positions({Vec3(0), {1, 0, 0}, {0, 1, 0}})}}}});
   asset.json["nodes"][0]["translation"] = {100, 0, 0};
@@ -34,11 +34,11 @@ std::size_t add(AssetBuilder& asset, int type, const char* shape, bool normalize
 }
 
 void instantiate(AssetBuilder& asset, Json attributes) {
-  asset.json["nodes"][0]["extensions"][kExtension]["attributes"] = std::move(attributes);
+  asset.json["nodes"][0]["extensions"][kInstancing]["attributes"] = std::move(attributes);
 }
 
 TEST(GltfInstances, AreTransformedWithinTheirNode) {
-  AssetBuilder asset = triangle();
+  AssetBuilder asset = instanced_triangle();
   const std::size_t moves = add<float>(asset, kFloat32, "VEC3", false, {0, 0, 0, 0, 10, 0}, 2);
   const std::size_t turns =
       add<std::int16_t>(asset, 5122, "VEC4", true, {0, 0, 0, 32767, 0, 0, 32767, 0}, 2);
@@ -57,13 +57,13 @@ TEST(GltfInstances, AreTransformedWithinTheirNode) {
 }
 
 TEST(GltfInstances, CustomAttributesMayDefineTheirNumber) {
-  AssetBuilder asset = triangle();
+  AssetBuilder asset = instanced_triangle();
   instantiate(asset, {{"_ID", add<float>(asset, kFloat32, "SCALAR", false, {7, 8, 9}, 3)}});
   EXPECT_THAT(load(asset).scene.objects, SizeIs(3));
 }
 
 TEST(GltfInstances, ZeroQuaternionsAreIgnored) {
-  AssetBuilder asset = triangle();
+  AssetBuilder asset = instanced_triangle();
   instantiate(asset, {{"ROTATION", add<float>(asset, kFloat32, "VEC4", false, {0, 0, 0, 0}, 1)}});
   const LoadedScene scene = load(asset);
   EXPECT_THAT(texts(scene.warnings), ElementsAre(HasSubstr("zero quaternions")));
@@ -84,7 +84,7 @@ TEST(GltfInstances, InvalidAttributesAreRefused) {
       {"SCALE", kFloat32, "VEC3", 3, "/attributes/_OTHER"},
   };
   for (const Case& c : cases) {
-    AssetBuilder asset = triangle();
+    AssetBuilder asset = instanced_triangle();
     const std::vector<float> zeros(16);
     instantiate(asset, {{c.name, add<float>(asset, c.type, c.shape, false, zeros, c.count)},
                         {"_OTHER", add<float>(asset, kFloat32, "SCALAR", false, zeros, 2)}});
@@ -99,7 +99,7 @@ TEST(GltfInstances, InvalidAttributesAreRefused) {
 }
 
 TEST(GltfInstances, TooManyAreRefusedBeforeAllocation) {
-  AssetBuilder asset = triangle();
+  AssetBuilder asset = instanced_triangle();
   instantiate(asset, {{"SCALE", asset.add("accessors", {{"componentType", kFloat32},
                                                         {"count", (1U << 22) + 1},
                                                         {"type", "VEC3"}})}});
@@ -112,7 +112,7 @@ TEST(GltfInstances, TooManyAreRefusedBeforeAllocation) {
 }
 
 TEST(GltfVisibility, HidesANodeAndItsDescendantsButNoCamera) {
-  AssetBuilder asset = triangle();
+  AssetBuilder asset = instanced_triangle();
   asset.json["extensionsUsed"] = {"KHR_node_visibility"};
   asset.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
   const std::size_t child = asset.add(

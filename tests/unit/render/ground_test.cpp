@@ -179,7 +179,7 @@ TEST(Ground, TransparentSurfacesCastLighterShadows) {
                  [](const DVec3&, double alpha) { EXPECT_EQ(alpha, 0.25); });
 }
 
-std::vector<Vec4> pixels_of(Film film) {
+std::vector<Vec4> rgba_of(Film film) {
   std::vector<Vec4> result;
   for (std::uint32_t y = 0; y < kSize.height; ++y) {
     for (std::uint32_t x = 0; x < kSize.width; ++x)
@@ -199,16 +199,16 @@ TEST(Ground, IsAtTheLowestPointByDefault) {
       {.name = "lowest", .shape = Triangle{{1, -0.75F, 1}, {2, 0, 1}, {1, 1, 1}}, .material = {}});
   scene.objects.push_back({.name = "wall", .shape = Plane{{0, 0, 20}, {0, 0, -1}}, .material = {}});
   const Camera camera = from_the_side();
-  const auto lowest = pixels_of(draw(scene, camera, {.ground = Ground{}}));
-  EXPECT_EQ(lowest, pixels_of(draw(scene, camera, {.ground = Ground{.height = -0.75}})));
-  EXPECT_TRUE(lowest != pixels_of(draw(scene, camera, {.ground = Ground{.height = -0.7}})));
+  const auto lowest = rgba_of(draw(scene, camera, {.ground = Ground{}}));
+  EXPECT_EQ(lowest, rgba_of(draw(scene, camera, {.ground = Ground{.height = -0.75}})));
+  EXPECT_TRUE(lowest != rgba_of(draw(scene, camera, {.ground = Ground{.height = -0.7}})));
   // The height is in world space.
   scene.origin = {5, 1000, 7};
-  EXPECT_EQ(lowest, pixels_of(draw(scene, camera, {.ground = Ground{.height = 999.25}})));
+  EXPECT_EQ(lowest, rgba_of(draw(scene, camera, {.ground = Ground{.height = 999.25}})));
   // Without bounded shapes there is no lowest point.
   scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 2);
-  EXPECT_EQ(pixels_of(draw(scene, camera, {.ground = Ground{}})),
-            pixels_of(draw(scene, camera, {.ground = std::nullopt})));
+  EXPECT_EQ(rgba_of(draw(scene, camera, {.ground = Ground{}})),
+            rgba_of(draw(scene, camera, {.ground = std::nullopt})));
 }
 
 TEST(Ground, DoesNotDependOnTheDistanceFromTheOrigin) {
@@ -224,7 +224,7 @@ TEST(Ground, DoesNotDependOnTheDistanceFromTheOrigin) {
   const Film near = draw(box_at(DVec3(0)), from_the_side(), {.ground = Ground{}});
   for (const std::optional<double> height : {std::optional<double>(), std::optional(by.y)}) {
     const Film far = draw(box_at(by), from_the_side(by), {.ground = Ground{.height = height}});
-    EXPECT_EQ(pixels_of(near), pixels_of(far));
+    EXPECT_EQ(rgba_of(near), rgba_of(far));
   }
 }
 
@@ -268,7 +268,7 @@ TEST(Ground, IsInvisibleFromBelowAndWithoutLight) {
   const Camera up =
       PerspectiveCamera{.pose = {.position = {0, -1, 0}, .direction = {0, 1, 0}, .up = {0, 0, 1}}};
   Scene scene = scene_of(Sphere{{0, 5, 0}, 0.1F}, uniform(1));
-  EXPECT_EQ(pixels_of(draw(scene, up)), pixels_of(draw(scene, up, {.ground = {}})));
+  EXPECT_EQ(rgba_of(draw(scene, up)), rgba_of(draw(scene, up, {.ground = {}})));
   scene = scene_of(Disc{{0, 1, 0}, {0, 1, 0}, 100}, uniform(0));
   for_each_pixel(draw(scene, from_above(0.5)),
                  [](const DVec3&, double alpha) { EXPECT_EQ(alpha, 0); });
