@@ -25,7 +25,7 @@ namespace {
 using namespace adversarial;
 
 // Sanitized builds test fewer cases.
-const int kCasesPerKind = static_cast<int>(traversal::kUsualRays / 50);
+const int kSpawnCases = static_cast<int>(traversal::kUsualRays / 50);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 template <class S>
@@ -128,10 +128,10 @@ void check(Random& random, const Ray& ray, const S& shape, SpawnCount& count) {
 }
 
 template <class MakeCase>
-SpawnCount check_kind(std::uint64_t seed, MakeCase make_case) {
+SpawnCount check_spawn_kind(std::uint64_t seed, MakeCase make_case) {
   Random random(seed);
   SpawnCount count;
-  for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {
+  for (int i = 0; i < kSpawnCases && !testing::Test::HasFatalFailure(); ++i) {
     const auto [ray, shape] = make_case(random);
     check(random, ray, shape, count);
   }
@@ -148,8 +148,8 @@ TEST(Spawn, Triangle) {
   for (const TriangleKind kind : kTriangleKinds) {
     SCOPED_TRACE(name(kind));
     const SpawnCount count =
-        check_kind(31, [&](Random& random) { return triangle_case(random, kind); });
-    EXPECT_GT(count.hits, kCasesPerKind / 200);
+        check_spawn_kind(31, [&](Random& random) { return triangle_case(random, kind); });
+    EXPECT_GT(count.hits, kSpawnCases / 200);
   }
 }
 
@@ -157,7 +157,7 @@ TEST(Spawn, Triangle) {
 // the ends of the float32 range.
 TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
   Random random(32);
-  for (int i = 0; i < 5 * kCasesPerKind; ++i) {
+  for (int i = 0; i < 5 * kSpawnCases; ++i) {
     const auto [ray, triangle] =
         triangle_case(random, kTriangleKinds[static_cast<std::size_t>(i) % kTriangleKinds.size()]);
     if (!exact::first_hit(triangle, ray) || !has_area(triangle)) continue;
@@ -174,11 +174,11 @@ void check_all_kinds(double least_share, MakeCase make_case) {
   for (const ShapeKind kind : kShapeKinds) {
     SCOPED_TRACE(name(kind));
     const SpawnCount count =
-        check_kind(33, [&](Random& random) { return make_case(random, kind); });
+        check_spawn_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
     // Rays hit about one in 25 discs whose numbers span the full float32 range. The number varies
     // randomly.
-    EXPECT_GT(count.hits, kCasesPerKind / 40);
+    EXPECT_GT(count.hits, kSpawnCases / 40);
   }
 }
 
@@ -199,7 +199,7 @@ TEST(Spawn, Quadric) {
 TEST(Spawn, RaysLeaveConvexBodies) {
   Random random(34);
   int leaves = 0;
-  for (int round = 0; round < kCasesPerKind; ++round) {
+  for (int round = 0; round < kSpawnCases; ++round) {
     // Tetrahedra are always convex.
     const float size = random.power_of_two(-30, 30);
     const Vec3 center = random.in_cube(1) * (size * random.power_of_two(0, 22));
@@ -232,7 +232,7 @@ TEST(Spawn, RaysLeaveConvexBodies) {
       ++leaves;
     }
   }
-  EXPECT_GT(leaves, kCasesPerKind / 2);
+  EXPECT_GT(leaves, kSpawnCases / 2);
 }
 
 // The batch algorithm must find the same origins as the single one: for shapes of all kinds, even

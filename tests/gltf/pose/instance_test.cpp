@@ -24,8 +24,8 @@ AssetBuilder instanced_triangle() {
 }
 
 template <typename Number>
-std::size_t add(AssetBuilder& asset, int type, const char* shape, bool normalized,
-                const std::vector<Number>& numbers, std::size_t count) {
+std::size_t add_attribute(AssetBuilder& asset, int type, const char* shape, bool normalized,
+                          const std::vector<Number>& numbers, std::size_t count) {
   return asset.add("accessors", {{"bufferView", asset.add_view(bytes_of<Number>(numbers))},
                                  {"componentType", type},
                                  {"normalized", normalized},
@@ -39,10 +39,12 @@ void instantiate(AssetBuilder& asset, Json attributes) {
 
 TEST(GltfInstances, AreTransformedWithinTheirNode) {
   AssetBuilder asset = instanced_triangle();
-  const std::size_t moves = add<float>(asset, kFloat32, "VEC3", false, {0, 0, 0, 0, 10, 0}, 2);
+  const std::size_t moves =
+      add_attribute<float>(asset, kFloat32, "VEC3", false, {0, 0, 0, 0, 10, 0}, 2);
   const std::size_t turns =
-      add<std::int16_t>(asset, 5122, "VEC4", true, {0, 0, 0, 32767, 0, 0, 32767, 0}, 2);
-  const std::size_t sizes = add<float>(asset, kFloat32, "VEC3", false, {1, 1, 1, 2, 3, 4}, 2);
+      add_attribute<std::int16_t>(asset, 5122, "VEC4", true, {0, 0, 0, 32767, 0, 0, 32767, 0}, 2);
+  const std::size_t sizes =
+      add_attribute<float>(asset, kFloat32, "VEC3", false, {1, 1, 1, 2, 3, 4}, 2);
   instantiate(asset, {{"TRANSLATION", moves}, {"ROTATION", turns}, {"SCALE", sizes}});
   const LoadedScene scene = load(asset);
   EXPECT_THAT(scene.warnings, IsEmpty());
@@ -58,13 +60,15 @@ TEST(GltfInstances, AreTransformedWithinTheirNode) {
 
 TEST(GltfInstances, CustomAttributesMayDefineTheirNumber) {
   AssetBuilder asset = instanced_triangle();
-  instantiate(asset, {{"_ID", add<float>(asset, kFloat32, "SCALAR", false, {7, 8, 9}, 3)}});
+  instantiate(asset,
+              {{"_ID", add_attribute<float>(asset, kFloat32, "SCALAR", false, {7, 8, 9}, 3)}});
   EXPECT_THAT(load(asset).scene.objects, SizeIs(3));
 }
 
 TEST(GltfInstances, ZeroQuaternionsAreIgnored) {
   AssetBuilder asset = instanced_triangle();
-  instantiate(asset, {{"ROTATION", add<float>(asset, kFloat32, "VEC4", false, {0, 0, 0, 0}, 1)}});
+  instantiate(
+      asset, {{"ROTATION", add_attribute<float>(asset, kFloat32, "VEC4", false, {0, 0, 0, 0}, 1)}});
   const LoadedScene scene = load(asset);
   EXPECT_THAT(texts(scene.warnings), ElementsAre(HasSubstr("zero quaternions")));
   EXPECT_EQ(triangles_of(scene.scene.objects.at(0))[0][1], Vec3(101, 0, 0));
@@ -86,8 +90,9 @@ TEST(GltfInstances, InvalidAttributesAreRefused) {
   for (const Case& c : cases) {
     AssetBuilder asset = instanced_triangle();
     const std::vector<float> zeros(16);
-    instantiate(asset, {{c.name, add<float>(asset, c.type, c.shape, false, zeros, c.count)},
-                        {"_OTHER", add<float>(asset, kFloat32, "SCALAR", false, zeros, 2)}});
+    instantiate(asset,
+                {{c.name, add_attribute<float>(asset, c.type, c.shape, false, zeros, c.count)},
+                 {"_OTHER", add_attribute<float>(asset, kFloat32, "SCALAR", false, zeros, 2)}});
     try {
       (void)load(asset);
       ADD_FAILURE() << c.name << " accepted";

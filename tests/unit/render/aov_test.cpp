@@ -18,7 +18,7 @@ namespace microtrace {
 namespace {
 
 constexpr ImageSize kAovSize{.width = 37, .height = 23};
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kAovInfinity = std::numeric_limits<float>::infinity();
 
 template <typename Number>
 const std::vector<Number>& channel(const Film& film, const std::string& name) {
@@ -119,9 +119,9 @@ TEST(Aov, NormalsOfASphere) {
   int seen = 0;
   for (std::size_t i = 0; i < floats(film, "depth.Z").size(); ++i) {
     const DVec3 normal = triple(film, "normal", i);
-    if (floats(film, "depth.Z")[i] == kInfinity) {
+    if (floats(film, "depth.Z")[i] == kAovInfinity) {
       EXPECT_EQ(normal, DVec3(0));
-      EXPECT_EQ(floats(film, "distance.T")[i], kInfinity);
+      EXPECT_EQ(floats(film, "distance.T")[i], kAovInfinity);
       EXPECT_EQ(triple(film, "position", i), DVec3(0));
       EXPECT_EQ(ids(film, "instance")[i], 0U);
       continue;
@@ -299,7 +299,7 @@ TEST(AovIntegrator, ShowsNumbersInEightBits) {
   };
   EXPECT_NEAR(shown(display(Aov::depth), 4), 1, 1e-6);
   EXPECT_NEAR(shown(display(Aov::depth), 9), 0.2, 1e-6);
-  EXPECT_EQ(shown(display(Aov::depth), kInfinity), -kInfinity);
+  EXPECT_EQ(shown(display(Aov::depth), kAovInfinity), -kAovInfinity);
   EXPECT_EQ(shown(display(Aov::normal), -1), 0);
   EXPECT_EQ(shown(display(Aov::normal), 1), 1);
   EXPECT_EQ(shown(display(Aov::uv), 0.25F), 0.25F);

@@ -32,7 +32,7 @@ class CoinIntegrator final : public Integrator {
 
 constexpr ImageSize kTargetSize{.width = 48, .height = 20};
 
-Film drawn(RenderOptions options) {
+Film drawn_to_target(RenderOptions options) {
   const CoinIntegrator integrator;
   options.integrator = &integrator;
   return render(Scene{}, PerspectiveCamera{}, kTargetSize, options);
@@ -40,9 +40,9 @@ Film drawn(RenderOptions options) {
 
 /// Renders with at most `samples` samples per pixel. Continues from `sums` if it has samples.
 Film drawn_to(double target, SampleSums& sums, std::uint32_t samples, unsigned threads = 1) {
-  return drawn({.threads = threads,
-                .samples = samples,
-                .passes = Passes{.sums = &sums, .target_error = target}});
+  return drawn_to_target({.threads = threads,
+                          .samples = samples,
+                          .passes = Passes{.sums = &sums, .target_error = target}});
 }
 
 // A coin flip that gives 0 or 2 has the standard deviation 1. The mean of n flips has an error of
@@ -126,7 +126,8 @@ TEST(TargetError, ThreadsAndInterruptionsHaveNoEffect) {
 
 TEST(TargetError, IsNotForShards) {
   EXPECT_THROW(
-      (void)drawn({.samples = 4, .passes = Passes{.part = SampleRange{0, 2}, .target_error = 0.1}}),
+      (void)drawn_to_target(
+          {.samples = 4, .passes = Passes{.part = SampleRange{0, 2}, .target_error = 0.1}}),
       Error);
 }
 

@@ -37,7 +37,8 @@ Scene scene_of(std::vector<Vec3> positions, std::vector<Segment> segments) {
 }
 
 /// Returns the covered pixels, as column from the left and row from the bottom.
-std::vector<Pixel> drawn(const Scene& scene, const Camera& camera, ImageSize size = kSegmentSize) {
+std::vector<Pixel> drawn_segments(const Scene& scene, const Camera& camera,
+                                  ImageSize size = kSegmentSize) {
   Film film = render(scene, camera, size, {.threads = 1});
   std::vector<Pixel> result;
   for (std::uint32_t y = 0; y < size.height; ++y) {
@@ -49,7 +50,7 @@ std::vector<Pixel> drawn(const Scene& scene, const Camera& camera, ImageSize siz
 }
 
 std::vector<Pixel> line(const Vec3& a, const Vec3& b, const Camera& camera = kPixels) {
-  return drawn(scene_of({a, b}, {{0, 1}}), camera);
+  return drawn_segments(scene_of({a, b}, {{0, 1}}), camera);
 }
 
 /// Returns true if the pixels are 8-connected.
@@ -78,7 +79,7 @@ TEST(Segments, PointsCoverTheirPixel) {
       const Scene scene = scene_of({Vec3(x, y, 0)}, {{0, 0}});
       // A point on the border between two pixels covers the right or the lower one.
       const Pixel expected(7, y == 9 ? 8 : 9);
-      EXPECT_THAT(drawn(scene, kPixels), ElementsAre(expected)) << x << " " << y;
+      EXPECT_THAT(drawn_segments(scene, kPixels), ElementsAre(expected)) << x << " " << y;
     }
   }
 }
@@ -158,8 +159,8 @@ TEST(Segments, EnvironmentCamerasSeeAllDirections) {
   // The line spans a quarter of the horizon, from straight ahead to the right and slightly above
   // the camera.
   const std::vector<Pixel> quarter =
-      drawn(scene_of({Vec3(0, 0.05F, -1), Vec3(1, 0.05F, 0)}, {{0, 1}}), kEnvironment,
-            {.width = 60, .height = 30});
+      drawn_segments(scene_of({Vec3(0, 0.05F, -1), Vec3(1, 0.05F, 0)}, {{0, 1}}), kEnvironment,
+                     {.width = 60, .height = 30});
   EXPECT_TRUE(is_connected(quarter));
   EXPECT_NEAR(static_cast<double>(quarter.size()), 16, 2);
 }
