@@ -26,8 +26,8 @@ class Blackness {
       : factor_(static_cast<float>(power_of_two(display.exposure))), map_(display.tone_map) {}
 
   [[nodiscard]] bool operator()(const Vec3& color) const {
-    constexpr float kMost = 1.5F / 255 / 12.92F;  // the sRGB curve is linear there
-    return greatest(tone_mapped(factor_ * color, map_)) < kMost;
+    constexpr float kDarkest = 1.5F / 255 / 12.92F;  // the sRGB curve is linear there
+    return greatest(tone_mapped(factor_ * color, map_)) < kDarkest;
   }
 
  private:

@@ -14,16 +14,16 @@ namespace microtrace {
 namespace {
 
 /// The least and greatest pixel coordinates of a box.
-struct Extent {
+struct PixelBounds {
   DVec2 least, greatest;
 };
 
 /// The extent of the box in the picture. Nothing if a part of the box is beside or behind the
 /// camera, where coordinates are imprecise.
-std::optional<Extent> extent_of(const DVec3& lo, const DVec3& hi, const RayGenerator& camera,
-                                const DVec3& position) {
-  Extent extent{.least = DVec2(std::numeric_limits<double>::infinity()),
-                .greatest = DVec2(-std::numeric_limits<double>::infinity())};
+std::optional<PixelBounds> pixel_bounds(const DVec3& lo, const DVec3& hi,
+                                        const RayGenerator& camera, const DVec3& position) {
+  PixelBounds extent{.least = DVec2(std::numeric_limits<double>::infinity()),
+                     .greatest = DVec2(-std::numeric_limits<double>::infinity())};
   for (unsigned k = 0; k < 8; ++k) {
     const DVec3 corner((k & 1U) != 0 ? hi.x : lo.x, (k & 2U) != 0 ? hi.y : lo.y,
                        (k & 4U) != 0 ? hi.z : lo.z);
@@ -56,7 +56,7 @@ PixelRect occupied_part(const Camera& camera, const RayGenerator& rays, const Ve
 
   // Rounding also moves the ray's origin. Enlarging the box by the same amount allows for this.
   const DVec3 moved = glm::abs(DVec3(Vec3(position)) - position) + glm::abs(position) * 0x1p-50;
-  const auto extent = extent_of(DVec3(lo) - moved, DVec3(hi) + moved, rays, position);
+  const auto extent = pixel_bounds(DVec3(lo) - moved, DVec3(hi) + moved, rays, position);
   if (!extent) return window;
 
   // Centers of pixels outside the result are more than one pixel away from the extent.

@@ -19,12 +19,16 @@ namespace {
 using Json = nlohmann::json;
 using testing::ElementsAre;
 
-constexpr ImageSize kSize{.width = 16, .height = 10};
+constexpr ImageSize kBopSize{.width = 16, .height = 10};
 
 /// Returns one pixel per 0.1 units at depth 1.
 Camera pinhole() {
-  return CalibratedCamera{
-      .pose = {.position = {0, 0, 10}}, .image = kSize, .fx = 10, .fy = 10, .cx = 7.5, .cy = 4.5};
+  return CalibratedCamera{.pose = {.position = {0, 0, 10}},
+                          .image = kBopSize,
+                          .fx = 10,
+                          .fy = 10,
+                          .cx = 7.5,
+                          .cy = 4.5};
 }
 
 Scene two_rectangles() {
@@ -62,7 +66,7 @@ std::vector<Sample> samples_of(const std::string& png) {
 
 TEST(Bop, CameraPosesAndCountsInClosedForm) {
   const Scene scene = two_rectangles();
-  const RenderedView view(scene, pinhole(), kSize, 7);
+  const RenderedView view(scene, pinhole(), kBopSize, 7);
   const BopView bop = bop_of(view, scene, {.depth_scale = 0.25});
   const Json camera = joined(BopFile::scene_camera, {bop.part})["7"];
   EXPECT_EQ(camera["cam_K"], Json({10, 0, 7.5, 0, 10, 4.5, 0, 0, 1}));
@@ -101,7 +105,7 @@ TEST(Bop, CameraPosesAndCountsInClosedForm) {
 
 TEST(Bop, FarDepthsAreStoredAsZeroWithAWarning) {
   const Scene scene = two_rectangles();
-  const RenderedView view(scene, pinhole(), kSize);
+  const RenderedView view(scene, pinhole(), kBopSize);
   const BopView bop = bop_of(view, scene);  // 100000 steps
   ASSERT_EQ(bop.warnings.size(), 1U);
   EXPECT_THAT(bop.warnings[0].message, testing::HasSubstr("48 depths exceed"));
@@ -116,9 +120,9 @@ TEST(Bop, OtherCamerasAndScalesAreRefused) {
   distorted.distortion = RationalDistortion{.k1 = 0.1};
   fisheye.distortion = FisheyeDistortion{};
   for (const Camera& camera :
-       {unit_camera(kSize), Camera(EnvironmentCamera{}), Camera(distorted), Camera(fisheye)})
-    EXPECT_THROW(static_cast<void>(bop_of(RenderedView(scene, camera, kSize), scene)), Error);
-  const RenderedView view(scene, pinhole(), kSize);
+       {unit_camera(kBopSize), Camera(EnvironmentCamera{}), Camera(distorted), Camera(fisheye)})
+    EXPECT_THROW(static_cast<void>(bop_of(RenderedView(scene, camera, kBopSize), scene)), Error);
+  const RenderedView view(scene, pinhole(), kBopSize);
   for (const double scale : {0.0, -1.0, HUGE_VAL, std::nan("")}) {
     EXPECT_THROW(static_cast<void>(bop_of(view, scene, {.depth_scale = scale})), Error);
     EXPECT_THROW(static_cast<void>(bop_of(view, scene, {.millimeters_per_unit = scale})), Error);

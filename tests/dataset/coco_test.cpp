@@ -90,7 +90,7 @@ Scene overlapping_scene() {
   return scene;
 }
 
-constexpr ImageSize kSize{.width = 16, .height = 10};
+constexpr ImageSize kCocoSize{.width = 16, .height = 10};
 
 Json joined(const Categories& categories, const std::vector<std::string>& parts) {
   std::string text;
@@ -104,11 +104,11 @@ TEST(Coco, PartsAreJoinedWithRunningIds) {
   const Scene scene = overlapping_scene();
   Categories categories(CategoryBy::object_name);
   categories.add(scene);
-  const RenderedView first(scene, unit_camera(kSize), kSize, 3);
+  const RenderedView first(scene, unit_camera(kCocoSize), kCocoSize, 3);
   const RenderedView empty(
-      scene, OrthographicCamera{.pose = {.position = {0, 0, 20}, .direction = {0, 0, 1}}}, kSize,
-      4);
-  const RenderedView second(scene, unit_camera(kSize), kSize, 9);
+      scene, OrthographicCamera{.pose = {.position = {0, 0, 20}, .direction = {0, 0, 1}}},
+      kCocoSize, 4);
+  const RenderedView second(scene, unit_camera(kCocoSize), kCocoSize, 9);
   std::vector<std::string> parts;
   for (const RenderedView* view : {&first, &empty, &second}) {
     const Masks amodal = view->amodal();
@@ -159,7 +159,7 @@ TEST(Coco, EmptyDataSetsAndIncompleteParts) {
   const Scene scene = overlapping_scene();
   Categories known(CategoryBy::object_name);
   known.add(scene);
-  const RenderedView view(scene, unit_camera(kSize), kSize);
+  const RenderedView view(scene, unit_camera(kCocoSize), kCocoSize);
   const std::string part = coco_part(view.view(), known, view.visible());
   EXPECT_EQ(joined(known, {part})["annotations"].size(), 3U);
   for (std::size_t size = 0; size < part.size(); ++size)

@@ -56,16 +56,16 @@ std::uint64_t exact(const StageCounts& counts) {
   return counts.grid + counts.dyadic;
 }
 
-struct Asked {
+struct Cost {
   StageCounts counts;
   std::size_t hits = 0;
 };
 
 // Calls every function, including those for ray origins.
-Asked ask(const Scene& scene, const std::vector<Ray>& rays) {
+Cost ask(const Scene& scene, const std::vector<Ray>& rays) {
   const Bvh bvh(scene);
   const StageCounts before = stage_counts();
-  Asked asked;
+  Cost asked;
   std::vector<std::optional<Hit>> hits(rays.size());
   bvh.intersect(rays, hits);
   const auto occluded = std::make_unique<bool[]>(rays.size());
@@ -107,10 +107,10 @@ Mesh copies_of(const Mesh& once, int count) {
 TEST_P(DegenerateCost, DuplicatesCostNothing) {
   const Mesh once = generated::displaced_sphere(5001);
   const std::vector<Ray> rays = rays_in_cube(1.5F);
-  const Asked alone = ask(scene_of(once), rays);
+  const Cost alone = ask(scene_of(once), rays);
   ASSERT_GT(alone.hits, rays.size() / 4);
   for (const int count : {2, 3, 16}) {
-    const Asked asked = ask(scene_of(copies_of(once, count)), rays);
+    const Cost asked = ask(scene_of(copies_of(once, count)), rays);
     EXPECT_EQ(asked.hits, alone.hits);
     EXPECT_LE(asked.counts.filters, alone.counts.filters) << count;
     EXPECT_LE(exact(asked.counts), exact(alone.counts)) << count;
@@ -123,10 +123,10 @@ TEST_P(DegenerateCost, DuplicatesOfAFewTrianglesCostNothing) {
   add_triangle(once, {-1, -1, 0.1F}, {1, -0.9F, 0.3F}, {0.2F, 1, -0.4F});
   add_triangle(once, {-1, -0.8F, -0.1F}, {1, -1, 0.5F}, {-0.4F, 1, 0.7F});
   const std::vector<Ray> rays = rays_in_cube(1.5F);
-  const Asked alone = ask(scene_of(once), rays);
+  const Cost alone = ask(scene_of(once), rays);
   ASSERT_GT(alone.hits, rays.size() / 8);
   for (const int count : {2, 3, 8, 9}) {
-    const Asked asked = ask(scene_of(copies_of(once, count)), rays);
+    const Cost asked = ask(scene_of(copies_of(once, count)), rays);
     EXPECT_EQ(asked.hits, alone.hits);
     EXPECT_LE(exact(asked.counts), exact(alone.counts)) << count;
   }
@@ -177,7 +177,7 @@ TEST_P(DegenerateCost, HitsOfADuplicateCostNothing) {
 TEST_P(DegenerateCost, PointsCostNothing) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
-  const Asked without = ask(scene_of(sphere), rays);
+  const Cost without = ask(scene_of(sphere), rays);
   Random random(32);
   for (const std::size_t count : {1U, 16U, 17U, 1000U}) {
     Mesh points, mixed = sphere;
@@ -186,10 +186,10 @@ TEST_P(DegenerateCost, PointsCostNothing) {
       add_triangle(points, p, p, p);
       add_triangle(mixed, p, p, p);
     }
-    const Asked alone = ask(scene_of(points), rays);
+    const Cost alone = ask(scene_of(points), rays);
     EXPECT_EQ(alone.hits, 0U);
     EXPECT_EQ(exact(alone.counts), 0U) << count;
-    const Asked among = ask(scene_of(mixed), rays);
+    const Cost among = ask(scene_of(mixed), rays);
     EXPECT_EQ(among.hits, without.hits);
     EXPECT_LE(exact(among.counts), exact(without.counts) + 4) << count;
     EXPECT_LE(among.counts.filters, without.counts.filters + 100) << count;
@@ -201,7 +201,7 @@ TEST_P(DegenerateCost, PointsCostNothing) {
 TEST_P(DegenerateCost, SegmentsCostNothing) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
-  const Asked without = ask(scene_of(sphere), rays);
+  const Cost without = ask(scene_of(sphere), rays);
   Random random(33);
   for (const float length : {0.02F, 2.0F}) {
     for (const std::size_t count : {1U, 17U, 4000U}) {
@@ -212,10 +212,10 @@ TEST_P(DegenerateCost, SegmentsCostNothing) {
         add_triangle(segments, p, q, r);
         add_triangle(mixed, p, q, r);
       }
-      const Asked alone = ask(scene_of(segments), rays);
+      const Cost alone = ask(scene_of(segments), rays);
       EXPECT_EQ(alone.hits, 0U);
       EXPECT_EQ(exact(alone.counts), 0U) << count;
-      const Asked among = ask(scene_of(mixed), rays);
+      const Cost among = ask(scene_of(mixed), rays);
       EXPECT_EQ(among.hits, without.hits);
       EXPECT_LE(exact(among.counts), exact(without.counts) + 4) << count;
       EXPECT_LE(among.counts.searched_origins, without.counts.searched_origins + 4) << count;
@@ -239,7 +239,7 @@ TEST_P(DegenerateCost, RaysInThePlaneCostLittle) {
     }
     std::vector<Ray> rays;
     for (int i = 0; i < 512; ++i) rays.push_back({.o = in_plane(2), .d = in_plane(2)});
-    const Asked asked = ask(scene_of(mesh), rays);
+    const Cost asked = ask(scene_of(mesh), rays);
     // Every function uses exact arithmetic for rays that hit an edge within the plane.
     EXPECT_LT(exact(asked.counts), 32 * asked.hits + 64) << count;
     EXPECT_LT(asked.hits, rays.size() / 2);

@@ -31,7 +31,7 @@ namespace {
 
 using namespace adversarial;
 
-struct Count {
+struct PathCount {
   std::size_t bounces = 0, without_origin = 0, transmitted = 0;
 };
 
@@ -277,7 +277,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
     return origins;
   }
 
-  void bounce(const World& world, Count& count) {
+  void bounce(const World& world, PathCount& count) {
     const std::vector<std::optional<Hit>> hits = ask_hits(world.bvh());
     if (random_.one_in(4)) check_occlusion(world.bvh(), hits);
     std::vector<Path> met;
@@ -344,7 +344,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, Escape, testing::ValuesIn(kBodyKinds),
 
 TEST_P(Escape, NoPathLeaves) {
   const std::size_t bounces = traversal::ray_count(0.1 / kBodyKinds.size());
-  Count count;
+  PathCount count;
   for (int world = 0; count.bounces < bounces; ++world) {
     const World body(random_, GetParam());
     ASSERT_TRUE(is_closed(body.mesh()));

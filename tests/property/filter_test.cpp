@@ -21,13 +21,13 @@ exact::Root number(double t) {
   return exact::rational(exact::Dyadic(t), exact::Dyadic(1.0F));
 }
 
-struct Count {
+struct FilterCount {
   int asked = 0, certain = 0;
   [[nodiscard]] double share() const { return asked == 0 ? 1 : double{1} * certain / asked; }
 };
 
 template <class S>
-void check(const Ray& ray, const S& shape, Count& count) {
+void check(const Ray& ray, const S& shape, FilterCount& count) {
   if (!exact::is_valid(ray) || !is_filterable(ray.o) || !is_filterable(ray.d) ||
       !is_filterable(shape))
     return;
@@ -52,14 +52,14 @@ void check(const Ray& ray, const S& shape, Count& count) {
 
 // Checks each case unchanged, and with the ends of the ray's interval at the hit or one ulp away.
 template <class MakeCase>
-Count check_kind(std::uint64_t seed, MakeCase make_case) {
+FilterCount check_kind(std::uint64_t seed, MakeCase make_case) {
   Random random(seed);
-  Count count;
+  FilterCount count;
   for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {
     const auto [ray, shape] = make_case(random);
     check(ray, shape, count);
     if (i % 4 != 0) continue;
-    Count ignored;
+    FilterCount ignored;
     if (const auto root = exact::first_hit(shape, ray))
       check(with_range_near(random, ray, exact::round_to_float(*root)), shape, ignored);
   }
@@ -69,7 +69,8 @@ Count check_kind(std::uint64_t seed, MakeCase make_case) {
 TEST(Filter, Triangle) {
   for (const TriangleKind kind : kTriangleKinds) {
     SCOPED_TRACE(name(kind));
-    const Count count = check_kind(1, [&](Random& random) { return triangle_case(random, kind); });
+    const FilterCount count =
+        check_kind(1, [&](Random& random) { return triangle_case(random, kind); });
     if (kind == TriangleKind::unit) {
       EXPECT_GT(count.share(), 0.9999);
     }
@@ -79,7 +80,7 @@ TEST(Filter, Triangle) {
 // Rays hit points and ends of segments exactly, although a - o needs more bits than float64 has.
 TEST(Filter, TriangleWithoutAreaWithRoundedOffset) {
   Random random(3);
-  Count count;
+  FilterCount count;
   for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {
     const Vec3 d = random.on_grid(15);
     if (d == Vec3(0)) continue;
@@ -96,7 +97,8 @@ template <class MakeCase>
 void check_all_kinds(MakeCase make_case) {
   for (const ShapeKind kind : kShapeKinds) {
     SCOPED_TRACE(name(kind));
-    const Count count = check_kind(2, [&](Random& random) { return make_case(random, kind); });
+    const FilterCount count =
+        check_kind(2, [&](Random& random) { return make_case(random, kind); });
     if (kind == ShapeKind::random) {
       EXPECT_GT(count.share(), 0.999);
     }

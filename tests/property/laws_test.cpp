@@ -26,7 +26,7 @@ using Answers = std::vector<std::optional<Hit>>;
 using Move = std::function<Vec3(Vec3)>;
 
 /// Returns the scene with its points and normals transformed and its lengths scaled.
-Scene moved(Scene scene, const Move& point, const Move& normal, float length) {
+Scene moved_scene(Scene scene, const Move& point, const Move& normal, float length) {
   for (Object& object : scene.objects) {
     if (auto* mesh = std::get_if<Mesh>(&object.shape)) {
       for (Vec3& p : mesh->positions.edit()) p = point(p);
@@ -47,13 +47,13 @@ Answers answers(const Scene& scene, const std::vector<Ray>& rays, const BvhOptio
   return hits;
 }
 
-struct Case {
+struct LawCase {
   Scene scene;
   std::vector<Ray> rays;
 };
 
-Case random_case(Random& random, SceneKind kind) {
-  Case c{.scene = random_scene(random, kind), .rays = {}};
+LawCase random_case(Random& random, SceneKind kind) {
+  LawCase c{.scene = random_scene(random, kind), .rays = {}};
   for (int i = 0; i < 200; ++i) {
     const Vec3 o = i % 16 == 0 || random.one_in(4) ? origin(random, c.scene) : c.rays.back().o;
     c.rays.push_back(random_ray(random, c.scene, o));
@@ -77,7 +77,7 @@ void expect_equal(const Answers& a, const Answers& b, float scale = 1) {
 class Laws : public testing::TestWithParam<SceneKind> {
  protected:
   /// Calls f(random, case) for several scenes of the kind.
-  void for_each_case(std::uint64_t test, const std::function<void(Random&, Case)>& f) {
+  void for_each_case(std::uint64_t test, const std::function<void(Random&, LawCase)>& f) {
     Random random = traversal::announced_random(50 + test);
     const std::size_t rounds = traversal::ray_count(0.02) / 200;
     for (std::size_t round = 0; round < rounds && !HasFatalFailure(); ++round) {
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfPlace, testing::Values(SceneKind::lattice
                          kind_name);
 
 TEST_P(Laws, OrderOfVerticesHasNoEffect) {
-  for_each_case(1, [](Random& random, const Case& c) {
+  for_each_case(1, [](Random& random, const LawCase& c) {
     Scene turned = c.scene;
     for (Object& object : turned.objects) {
       auto* mesh = std::get_if<Mesh>(&object.shape);
@@ -123,7 +123,7 @@ TEST_P(Laws, OrderOfVerticesHasNoEffect) {
 
 // If several hits have equal t, another primitive may be returned, but t must not change.
 TEST_P(Laws, OrderOfPrimitivesOnlyDecidesTies) {
-  for_each_case(2, [](Random& random, const Case& c) {
+  for_each_case(2, [](Random& random, const LawCase& c) {
     Scene shuffled = c.scene;
     std::vector<std::size_t> old_place(
         shuffled.objects.size());  // the previous index of each object
@@ -167,7 +167,7 @@ TEST_P(Laws, OrderOfPrimitivesOnlyDecidesTies) {
 }
 
 TEST_P(Laws, MirroredAndPermutedAxesHaveNoEffect) {
-  for_each_case(3, [](Random& random, Case c) {
+  for_each_case(3, [](Random& random, LawCase c) {
     const int first = random.between(0, 2);
     const bool mirrored = random.one_in(2);
     const Move turn = [&](Vec3 p) {
@@ -179,13 +179,13 @@ TEST_P(Laws, MirroredAndPermutedAxesHaveNoEffect) {
       ray.o = turn(ray.o);
       ray.d = turn(ray.d);
     }
-    expect_equal(expected, answers(moved(c.scene, turn, turn, 1), c.rays));
+    expect_equal(expected, answers(moved_scene(c.scene, turn, turn, 1), c.rays));
   });
 }
 
 // The test uses only numbers that neither overflow nor underflow when they are scaled.
 TEST_P(LawsOfSize, ScalingByPowersOfTwoHasNoEffect) {
-  for_each_case(4, [](Random& random, Case c) {
+  for_each_case(4, [](Random& random, LawCase c) {
     const bool exact =
         std::all_of(c.scene.objects.begin(), c.scene.objects.end(), [](const auto& o) {
           const auto* mesh = std::get_if<Mesh>(&o.shape);
@@ -213,14 +213,14 @@ TEST_P(LawsOfSize, ScalingByPowersOfTwoHasNoEffect) {
       rays.push_back(s);
     }
     const Answers expected = answers(c.scene, c.rays);
-    const Scene scene = moved(
+    const Scene scene = moved_scene(
         c.scene, [&](Vec3 p) { return p * size; }, [](Vec3 n) { return n; }, size);
     expect_equal(expected, answers(scene, rays), t_scale);
   });
 }
 
 TEST_P(LawsOfPlace, ExactTranslationHasNoEffect) {
-  for_each_case(5, [](Random& random, Case c) {
+  for_each_case(5, [](Random& random, LawCase c) {
     const auto fits = [](const Vec3& p) {
       return glm::abs(p.x) <= 64 && glm::abs(p.y) <= 64 && glm::abs(p.z) <= 64 &&
              p == (p + 0x1p14F) - 0x1p14F;
@@ -233,7 +233,7 @@ TEST_P(LawsOfPlace, ExactTranslationHasNoEffect) {
     Vec3 by{0};
     for (int k = 0; k < 3; ++k) by[k] = (random.one_in(2) ? 1 : -1) * random.power_of_two(0, 13);
     const Answers expected = answers(c.scene, c.rays);
-    const Scene scene = moved(
+    const Scene scene = moved_scene(
         c.scene, [&](Vec3 p) { return p + by; }, [](Vec3 n) { return n; }, 1);
     for (Ray& ray : c.rays) ray.o += by;
     expect_equal(expected, answers(scene, c.rays));
@@ -241,7 +241,7 @@ TEST_P(LawsOfPlace, ExactTranslationHasNoEffect) {
 }
 
 TEST_P(Laws, BuildOptionsHaveNoEffect) {
-  for_each_case(6, [](Random& random, const Case& c) {
+  for_each_case(6, [](Random& random, const LawCase& c) {
     const Answers expected = answers(c.scene, c.rays, {.threads = 1});
     const auto threads = static_cast<unsigned>(random.between(2, 5));
     expect_equal(expected, answers(c.scene, c.rays, {.threads = threads}));

@@ -30,7 +30,7 @@ namespace {
 
 using namespace adversarial;
 
-Scene scene_of(Mesh mesh) {
+Scene queried_scene(Mesh mesh) {
   Scene scene;
   scene.objects.push_back({.name = "", .shape = std::move(mesh)});
   return scene;
@@ -81,7 +81,7 @@ TEST(AllHits, OfRaysBeyondTheLimitsOfKernels) {
   for (const float size : {0x1p-140F, 0x1p-60F, 0x1p60F, 0x1p120F}) {
     for (const BodyKind kind : kBodyKinds) {
       const Vec3 center = random.in_cube(size);
-      const PreparedScene scene(scene_of(closed_body(random, kind, center, size)));
+      const PreparedScene scene(queried_scene(closed_body(random, kind, center, size)));
       std::vector<Ray> rays;
       for (int i = 0; i < 20; ++i) {
         rays.push_back({.o = center + random.in_cube(2 * size),
@@ -179,7 +179,7 @@ TEST(Solid, LocatesPointsAsATestOfAllTriangles) {
   for (const SolidCase& solid_case : solid_cases(random, 3)) {
     SCOPED_TRACE(solid_case.name);
     const Mesh& mesh = solid_case.mesh;
-    const Solid solid{PreparedScene(scene_of(mesh))};
+    const Solid solid{PreparedScene(queried_scene(mesh))};
     EXPECT_TRUE(solid.is_closed());
     std::vector<Vec3> points;
     for (int i = 0; i < per_body; ++i) points.push_back(point_about(random, solid_case));
@@ -216,7 +216,7 @@ TEST(Solid, TriesAnotherRayAtEdgesAndVertices) {
     EXPECT_TRUE(is_grazing);
     const Vec3 p(0);
     Location location = Location::outside;
-    Solid{PreparedScene(scene_of(mesh))}.locate(std::span(&p, 1), std::span(&location, 1));
+    Solid{PreparedScene(queried_scene(mesh))}.locate(std::span(&p, 1), std::span(&location, 1));
     EXPECT_EQ(location, location_by_definition(mesh, p, random));
     EXPECT_EQ(location, Location::inside);
   }
@@ -228,7 +228,7 @@ TEST(Solid, FindsTheNearestOfAllTriangles) {
   for (const SolidCase& solid_case : solid_cases(random, 3)) {
     SCOPED_TRACE(solid_case.name);
     const Mesh& mesh = solid_case.mesh;
-    const Solid solid{PreparedScene(scene_of(mesh))};
+    const Solid solid{PreparedScene(queried_scene(mesh))};
     std::vector<Vec3> points;
     for (int i = 0; i < per_body; ++i) points.push_back(point_about(random, solid_case));
     std::vector<std::optional<NearestPoint>> nearest(points.size());

@@ -28,14 +28,14 @@ using namespace adversarial;
 
 using Origins = std::vector<std::optional<Vec3>>;
 
-bool same_bits(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
+bool are_same_bits(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
   const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
   return a.has_value() == b.has_value() &&
          (!a || (bits(a->x) == bits(b->x) && bits(a->y) == bits(b->y) && bits(a->z) == bits(b->z)));
 }
 
 testing::AssertionResult same(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
-  if (same_bits(a, b)) return testing::AssertionSuccess();
+  if (are_same_bits(a, b)) return testing::AssertionSuccess();
   const auto show = [](const std::optional<Vec3>& v) {
     std::array<char, 100> text{};
     if (v) std::snprintf(text.data(), text.size(), "(%a, %a, %a)", v->x, v->y, v->z);
@@ -89,7 +89,7 @@ Vec3 direction(Random& random, const Ray& ray) {
   }
 }
 
-void add(Scene& scene, const Shape& shape) {
+void add_shape(Scene& scene, const Shape& shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
@@ -175,7 +175,7 @@ double check_cases(std::uint64_t seed, const Effort& effort, MakeCase make_case)
     for (int i = 0; i < shapes; ++i) {
       const auto [line, shape] = make_case(random);
       const auto id = static_cast<PrimitiveId>(scene.objects.size());
-      add(scene, shape);
+      add_shape(scene, shape);
       for (int k = random.between(1, 8); k > 0; --k) {
         Ray ray = line;
         if (k > 1) ray.o = with_odd_coordinates(random, random.jitter(line.o, 1 << (2 * k)));
@@ -231,19 +231,20 @@ Scene touching_shapes(Random& random, float spacing, const Vec3& center) {
     if (random.one_in(4)) normal = with_odd_coordinates(random, normal);
     switch (random.between(0, 15)) {
       case 0:
-        add(scene, Plane{.point = at, .normal = normal});
+        add_shape(scene, Plane{.point = at, .normal = normal});
         break;
       case 1:
       case 2:
-        add(scene, Disc{.center = at, .normal = normal, .radius = 2 * spacing});
+        add_shape(scene, Disc{.center = at, .normal = normal, .radius = 2 * spacing});
         break;
       case 3:
       case 4:
-        add(scene, Sphere{.center = at, .radius = spacing * float(random.between(1, 3))});
+        add_shape(scene, Sphere{.center = at, .radius = spacing * float(random.between(1, 3))});
         break;
       default: {
         const Vec3 b = at + random.on_grid(2, spacing), c = at + random.on_grid(2, spacing);
-        add(scene, Triangle{random.jitter(at, 1), b, random.one_in(4) ? random.jitter(c, 2) : c});
+        add_shape(scene,
+                  Triangle{random.jitter(at, 1), b, random.one_in(4) ? random.jitter(c, 2) : c});
       }
     }
   }

@@ -61,11 +61,11 @@ std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const 
   return Vec3(lanes.p[0][1], lanes.p[1][1], lanes.p[2][1]);
 }
 
-struct Count {
+struct PointCount {
   std::size_t hits = 0, sure = 0, sure_in_lanes = 0;
 };
 
-void check(const Ray& ray, const Triangle& t, Count& count) {
+void check(const Ray& ray, const Triangle& t, PointCount& count) {
   if (!is_filterable(ray.o) || !is_filterable(ray.d) || !is_filterable(t)) return;
   const auto exact_t = exact::first_hit(t, ray);
   if (!exact_t) return;
@@ -131,7 +131,7 @@ TEST(SpawnPoint, BoundsOfACoordinateInAPlaneHold) {
 
 TEST(SpawnPoint, BoundsHoldOnWalls) {
   Random random = traversal::announced_random(95);
-  Count count;
+  PointCount count;
   for (std::size_t i = 0; i < traversal::ray_count(0.1) && !HasFatalFailure(); ++i) {
     const auto [ray, triangle] = wall_case(random);
     check(ray, triangle, count);
@@ -144,7 +144,7 @@ TEST(SpawnPoint, BoundsHoldOnWalls) {
 
 TEST(SpawnPoint, BoundsHoldOnAnyTriangle) {
   Random random = traversal::announced_random(96);
-  Count count;
+  PointCount count;
   for (const TriangleKind kind : kTriangleKinds) {
     for (std::size_t i = 0; i < traversal::ray_count(0.01) && !HasFatalFailure(); ++i) {
       const auto [ray, triangle] = triangle_case(random, kind);

@@ -25,7 +25,7 @@ namespace {
 using namespace adversarial;
 
 // Sanitized builds test fewer cases.
-const int kCasesPerKind = static_cast<int>(traversal::kUsualRays / 50);
+const int kSpawnCases = static_cast<int>(traversal::kUsualRays / 50);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 template <class S>
@@ -93,12 +93,12 @@ void check_nearness(const S& shape, const Ray& ray, const Vec3& q, const Vec3& d
   ASSERT_LE(most, is_flat<S> ? 4 : 64) << reproduction(ray, shape) << direction.x;
 }
 
-struct Count {
+struct SpawnCount {
   int hits = 0, spawned = 0;
 };
 
 template <class S>
-void check(Random& random, const Ray& ray, const S& shape, Count& count) {
+void check(Random& random, const Ray& ray, const S& shape, SpawnCount& count) {
   const auto t = exact::first_hit(shape, ray);
   const Vec3 direction = any_direction(random, ray, within(shape));
   const auto q = spawn_origin(shape, ray, direction);
@@ -128,10 +128,10 @@ void check(Random& random, const Ray& ray, const S& shape, Count& count) {
 }
 
 template <class MakeCase>
-Count check_kind(std::uint64_t seed, MakeCase make_case) {
+SpawnCount check_spawn_kind(std::uint64_t seed, MakeCase make_case) {
   Random random(seed);
-  Count count;
-  for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {
+  SpawnCount count;
+  for (int i = 0; i < kSpawnCases && !testing::Test::HasFatalFailure(); ++i) {
     const auto [ray, shape] = make_case(random);
     check(random, ray, shape, count);
   }
@@ -147,8 +147,9 @@ bool has_area(const Triangle& t) {
 TEST(Spawn, Triangle) {
   for (const TriangleKind kind : kTriangleKinds) {
     SCOPED_TRACE(name(kind));
-    const Count count = check_kind(31, [&](Random& random) { return triangle_case(random, kind); });
-    EXPECT_GT(count.hits, kCasesPerKind / 200);
+    const SpawnCount count =
+        check_spawn_kind(31, [&](Random& random) { return triangle_case(random, kind); });
+    EXPECT_GT(count.hits, kSpawnCases / 200);
   }
 }
 
@@ -156,7 +157,7 @@ TEST(Spawn, Triangle) {
 // the ends of the float32 range.
 TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
   Random random(32);
-  for (int i = 0; i < 5 * kCasesPerKind; ++i) {
+  for (int i = 0; i < 5 * kSpawnCases; ++i) {
     const auto [ray, triangle] =
         triangle_case(random, kTriangleKinds[static_cast<std::size_t>(i) % kTriangleKinds.size()]);
     if (!exact::first_hit(triangle, ray) || !has_area(triangle)) continue;
@@ -172,11 +173,12 @@ template <class MakeCase>
 void check_all_kinds(double least_share, MakeCase make_case) {
   for (const ShapeKind kind : kShapeKinds) {
     SCOPED_TRACE(name(kind));
-    const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
+    const SpawnCount count =
+        check_spawn_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
     // Rays hit about one in 25 discs whose numbers span the full float32 range. The number varies
     // randomly.
-    EXPECT_GT(count.hits, kCasesPerKind / 40);
+    EXPECT_GT(count.hits, kSpawnCases / 40);
   }
 }
 
@@ -197,7 +199,7 @@ TEST(Spawn, Quadric) {
 TEST(Spawn, RaysLeaveConvexBodies) {
   Random random(34);
   int leaves = 0;
-  for (int round = 0; round < kCasesPerKind; ++round) {
+  for (int round = 0; round < kSpawnCases; ++round) {
     // Tetrahedra are always convex.
     const float size = random.power_of_two(-30, 30);
     const Vec3 center = random.in_cube(1) * (size * random.power_of_two(0, 22));
@@ -230,7 +232,7 @@ TEST(Spawn, RaysLeaveConvexBodies) {
       ++leaves;
     }
   }
-  EXPECT_GT(leaves, kCasesPerKind / 2);
+  EXPECT_GT(leaves, kSpawnCases / 2);
 }
 
 // The batch algorithm must find the same origins as the single one: for shapes of all kinds, even

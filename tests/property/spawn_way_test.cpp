@@ -92,12 +92,12 @@ bool is_met(const Triangle& triangle, const Rational& w, const Vec3& q) {
   return first == 0 || side(to_w, b) != first || side(to_w, c) != first;
 }
 
-struct Count {
+struct WayCount {
   std::size_t origins = 0, within_planes = 0, without_area = 0;
 };
 
 void check_way(const Scene& scene, PrimitiveId own, const Ray& ray, const exact::Root& t,
-               const Vec3& direction, const Vec3& q, Count& count) {
+               const Vec3& direction, const Vec3& q, WayCount& count) {
   std::visit(
       [&]<class S>(const S& shape) {
         if constexpr (!std::is_same_v<S, Mesh>) {
@@ -144,7 +144,7 @@ void check_way(const Scene& scene, PrimitiveId own, const Ray& ray, const exact:
 
 TEST(SpawnWay, MeetsNoTriangleWithAnAreaAndChangesNoSide) {
   Random random = traversal::announced_random(90);
-  Count count;
+  WayCount count;
   const std::size_t rays = traversal::ray_count(0.05);
   for (std::size_t done = 0; done < rays && !HasFatalFailure();) {
     const Scene scene = touching_scene(random);

@@ -26,7 +26,7 @@ class Touching : public testing::TestWithParam<const Kernels*> {};
 INSTANTIATE_TEST_SUITE_P(Isa, Touching, testing::ValuesIn(kRayKernels.available()),
                          [](const auto& isa) { return std::string(isa.param->name); });
 
-void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
+void append_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vec3& p : {a, b, c}) mesh.positions.push_back(p);
   mesh.triangles.push_back({first, first + 1, first + 2});
@@ -86,9 +86,9 @@ TEST_P(Touching, FindsTrianglesWithAnEdgeThroughThePoint) {
     for (int i = 0; i < 24; ++i) {
       const Vec3 a = number() * d, b = -number() * d, c = random.in_cube(0x1p20F);
       if (i % 2 == 0)
-        add_triangle(mesh, a, b, c);
+        append_triangle(mesh, a, b, c);
       else
-        add_triangle(mesh, a, c, b);
+        append_triangle(mesh, a, c, b);
     }
     const auto found = Places(mesh, *GetParam()).near(p, p);
     ASSERT_TRUE(found);
@@ -105,7 +105,7 @@ TEST_P(Touching, OmitsLongThinTrianglesBesideTheBox) {
     for (int i = 0; i < 400; ++i) {
       const Vec3 a = random.on_grid(64), b = random.on_grid(64);
       const Vec3 c = random.one_in(2) ? a : a + random.on_grid(1, 0x1p-8F);
-      add_triangle(mesh, a, b, c);
+      append_triangle(mesh, a, b, c);
     }
     const Places slots(mesh, *GetParam());
     for (int i = 0; i < 50; ++i) {
@@ -146,7 +146,7 @@ TEST_P(Touching, OmitsOneTriangleAndAPlane) {
     for (int i = 0; i < 40; ++i) {
       const float along = i % 4 == 0 ? 3 : 0, tip = i % 4 == 1 ? 5.0F : along;
       const auto width = static_cast<float>(1 + i);  // the tree has one of equal triangles
-      add_triangle(mesh, at(along, -1, -1), at(along, width, -1), at(tip, 0, 9));
+      append_triangle(mesh, at(along, -1, -1), at(along, width, -1), at(tip, 0, 9));
     }
     BoxQuery query;
     query.omitted_id = 8;

@@ -26,12 +26,12 @@ namespace {
 
 using namespace adversarial;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kRayInfinity = std::numeric_limits<float>::infinity();
 
 using Answers = std::vector<std::optional<Hit>>;
 
 // Returns the nearest hit by its definition, computed only with exact arithmetic.
-std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
+std::optional<Hit> hit_by_definition(const Primitives& primitives, const Ray& ray) {
   std::optional<exact::Root> nearest;
   std::optional<Hit> best;
   primitives.for_each([&](PrimitiveId id, const auto& shape) {
@@ -144,7 +144,7 @@ TEST_P(Traversal, EveryKernelAndFunctionEqualsTestingEveryPrimitive) {
       hits += expected.back().has_value() ? 1 : 0;
       if (expected.back() && is_without_area(primitives, expected.back()->id)) ++hits_without_area;
       if (random.one_in(32)) {
-        ASSERT_TRUE(same(expected.back(), by_definition(primitives, ray)));
+        ASSERT_TRUE(same(expected.back(), hit_by_definition(primitives, ray)));
       }
     }
     with_each_kernel([&] { check_calls(Bvh(scene), rays, expected); });
@@ -179,7 +179,7 @@ TEST(TraversalFarAway, LongDirectionsHitDistantShapes) {
     const Primitives primitives(scene);
     Answers expected;
     for (const Ray& ray : rays) {
-      expected.push_back(by_definition(primitives, ray));
+      expected.push_back(hit_by_definition(primitives, ray));
       hits += expected.back() ? 1 : 0;
     }
     with_each_kernel([&] { check_calls(Bvh(scene), rays, expected); });
@@ -215,7 +215,7 @@ TEST(TraversalNextToACorner, FindsHitsOfRaysAlmostInThePlane) {
     const Primitives primitives(scene);
     Answers expected;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      expected.push_back(by_definition(primitives, rays[i]));
+      expected.push_back(hit_by_definition(primitives, rays[i]));
       hits_of_own += expected.back() && expected.back()->id == owns[i] ? 1 : 0;
     }
     with_each_kernel([&] { check_calls(Bvh(scene), rays, expected); });
@@ -236,7 +236,7 @@ TEST(TraversalOfADeepTree, StreamsEqualSingleRays) {
   std::vector<Ray> rays;
   for (int group = 0; group < 100; ++group) {
     const Vec3 center = random.in_cube(1);
-    const float t_max = random.one_in(3) ? kInfinity : float(random.unit());
+    const float t_max = random.one_in(3) ? kRayInfinity : float(random.unit());
     for (int i = 0; i < 50; ++i)
       rays.push_back({.o = center + random.in_cube(0.05F), .d = random.in_cube(1), .t_max = t_max});
   }

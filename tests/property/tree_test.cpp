@@ -21,13 +21,13 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-Scene scene_of(std::vector<Shape> shapes) {
+Scene scene_with(std::vector<Shape> shapes) {
   Scene scene;
   for (Shape& shape : shapes) scene.objects.push_back({.name = "", .shape = std::move(shape)});
   return scene;
 }
 
-class Random {
+class Points {
  public:
   /// Returns a random number in [-1, 1).
   float symmetric() { return static_cast<float>(static_cast<std::int32_t>(bits_())) * 0x1p-31F; }
@@ -42,7 +42,7 @@ class Random {
 };
 
 Mesh soup(std::size_t triangles, float size) {
-  Random random;
+  Points random;
   Mesh mesh;
   for (std::uint32_t i = 0; i < triangles; ++i) {
     const Triangle t = random.triangle(size);
@@ -80,7 +80,7 @@ Tree check(const Scene& scene, Place place) {
 }
 
 TEST(Tree, EmptyTreeIsANodeWithoutChildren) {
-  const Tree tree = check(scene_of({}), Place::nowhere);
+  const Tree tree = check(scene_with({}), Place::nowhere);
   ASSERT_EQ(tree.nodes.size(), 1);
   EXPECT_EQ(tree.root, 0);
   EXPECT_GT(tree.bounds.lo.x, tree.bounds.hi.x);
@@ -88,7 +88,7 @@ TEST(Tree, EmptyTreeIsANodeWithoutChildren) {
 
 TEST(Tree, OneBlockIsOneLeaf) {
   for (std::size_t n = 1; n <= 9; ++n) {
-    const Tree tree = check(scene_of({soup(n, 1)}), Place::blocks);
+    const Tree tree = check(scene_with({soup(n, 1)}), Place::blocks);
     if (n <= 8) {
       EXPECT_EQ(tree.root, child_ref::kTriangles) << n;
       EXPECT_EQ(tree.nodes.size(), 0);
@@ -100,10 +100,10 @@ TEST(Tree, OneBlockIsOneLeaf) {
 
 TEST(Tree, HoldsMeshesOfAllSizes) {
   for (const unsigned n : {10U, 17U, 64U, 65U, 1000U, 30000U, 100000U}) {
-    check(scene_of({soup(n, 0.01F)}), Place::blocks);
-    check(scene_of({generated::displaced_sphere(n)}), Place::blocks);
-    check(scene_of({generated::terrain(n)}), Place::blocks);
-    check(scene_of({generated::hall(n)}), Place::blocks);
+    check(scene_with({soup(n, 0.01F)}), Place::blocks);
+    check(scene_with({generated::displaced_sphere(n)}), Place::blocks);
+    check(scene_with({generated::terrain(n)}), Place::blocks);
+    check(scene_with({generated::hall(n)}), Place::blocks);
   }
 }
 
@@ -112,28 +112,28 @@ TEST(Tree, SplitsObliqueTriangles) {
     return static_cast<double>(mesh.triangles.size());
   };
   const auto references = [](const Mesh& mesh) {
-    const Scene scene = scene_of({mesh});
+    const Scene scene = scene_with({mesh});
     const Primitives primitives(scene);
     return static_cast<double>(
         TreeWalk(build_tree(primitives, {}), primitives).triangle_references());
   };
   // Many long needles across a cube, and a cluster of tiny triangles.
   Mesh needles = soup(20000, 0.001F);
-  Random random;
+  Points random;
   for (std::size_t i = 0; i < 3000; i += 3) needles.positions.edit()[i] = random.in_cube();
-  check(scene_of({needles}), Place::blocks);
+  check(scene_with({needles}), Place::blocks);
   EXPECT_GT(references(needles), 1.1 * triangles(needles));
   EXPECT_LE(references(needles), 1.3 * triangles(needles));
 
   const Mesh hall = generated::turned(generated::hall(50000));
-  check(scene_of({hall}), Place::blocks);
+  check(scene_with({hall}), Place::blocks);
   EXPECT_GT(references(hall), 1.01 * triangles(hall));
   const Mesh even = generated::displaced_sphere(50000);
   EXPECT_EQ(references(even), triangles(even));
 }
 
 TEST(Tree, SplitBoxesContainBothParts) {
-  Random random;
+  Points random;
   for (int i = 0; i < 20000; ++i) {
     const float size = std::ldexp(1.0F, i % 60 - 30);
     Triangle t = random.triangle(1);
@@ -201,13 +201,13 @@ TEST(Tree, SortsShapes) {
         if (primitive_count(shape) != 0) places.push_back(place);
       }
     }
-    check(scene_of(shapes), [&](PrimitiveId id) { return places[id]; });
+    check(scene_with(shapes), [&](PrimitiveId id) { return places[id]; });
   }
 }
 
 TEST(Tree, BoxesOfCurvedShapesAreTight) {
   const auto box = [](const Shape& shape) {
-    const Scene scene = scene_of({shape});
+    const Scene scene = scene_with({shape});
     return build_tree(Primitives(scene), {}).bounds;
   };
   const Bounds sphere = box(Sphere{Vec3(1, 2, 3), 0.5F});
@@ -239,7 +239,7 @@ TEST(Tree, StoresDuplicatesOnce) {
     return mesh;
   };
   const auto duplicates = [&](const Mesh& mesh) {
-    const Tree tree = check(scene_of({mesh}), Place::blocks);
+    const Tree tree = check(scene_with({mesh}), Place::blocks);
     return tree.duplicates.ids().size();
   };
   using Corners = std::array<std::uint32_t, 3>;
@@ -264,7 +264,7 @@ TEST(Tree, StoresDuplicatesOnce) {
 
   // Tests triangles that are too large for blocks, and coincident spheres.
   const Triangle large{{0, 0x1p40F, 0}, {1, 0, 0}, {0, 0, 1}};
-  const Tree tree = check(scene_of({large, Sphere{}, Sphere{}, large}), Place::others);
+  const Tree tree = check(scene_with({large, Sphere{}, Sphere{}, large}), Place::others);
   EXPECT_EQ(tree.duplicates.ids(), std::vector<PrimitiveId>{3});
 }
 
@@ -275,7 +275,7 @@ TEST(Tree, SeparatesTrianglesWithoutArea) {
     mesh.triangles.push_back({i, i + 1, i});
     mesh.triangles.push_back({i + 1, i, i + 1});
   }
-  const Tree tree = check(scene_of({mesh}), Place::blocks);
+  const Tree tree = check(scene_with({mesh}), Place::blocks);
   EXPECT_EQ(tree.duplicates.ids().size(), 500U);
   EXPECT_EQ(tree.others.size(), 500U);
 }
@@ -283,9 +283,9 @@ TEST(Tree, SeparatesTrianglesWithoutArea) {
 TEST(Tree, HandlesInseparableCentroids) {
   Mesh duplicates{.positions = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(5)}, .triangles = {}};
   duplicates.triangles.assign(100000, {0, 1, 2});
-  EXPECT_EQ(check(scene_of({duplicates}), Place::blocks).blocks.size(), 1U);
+  EXPECT_EQ(check(scene_with({duplicates}), Place::blocks).blocks.size(), 1U);
   duplicates.triangles.assign(100000, {3, 3, 3});
-  EXPECT_EQ(check(scene_of({duplicates}), Place::blocks).others.size(), 1U);
+  EXPECT_EQ(check(scene_with({duplicates}), Place::blocks).others.size(), 1U);
 
   // Different triangles with equal bounding boxes
   Mesh boxed;
@@ -295,7 +295,7 @@ TEST(Tree, HandlesInseparableCentroids) {
       boxed.positions.push_back(p);
     boxed.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  EXPECT_TRUE(check(scene_of({boxed}), Place::blocks).duplicates.ids().empty());
+  EXPECT_TRUE(check(scene_with({boxed}), Place::blocks).duplicates.ids().empty());
 
   // Triangles with a common center and different sizes
   Mesh nested;
@@ -305,8 +305,8 @@ TEST(Tree, HandlesInseparableCentroids) {
       nested.positions.push_back(p);
     nested.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  check(scene_of({nested}), Place::blocks);
-  check(scene_of(std::vector<Shape>(1000, Sphere{})), Place::others);
+  check(scene_with({nested}), Place::blocks);
+  check(scene_with(std::vector<Shape>(1000, Sphere{})), Place::others);
 }
 
 // The centers are at 2^-i, so every plane between bins splits off only a few triangles.
@@ -319,7 +319,7 @@ TEST(Tree, HasBoundedDepth) {
       shapes.emplace_back(Triangle{{0, -x, 0}, {0, -x, 0}, {0, -x, 0}});
     }
   }
-  check(scene_of(shapes),
+  check(scene_with(shapes),
         [](PrimitiveId id) { return id / 40 <= 148 + 38 ? Place::blocks : Place::others; });
 }
 
@@ -327,14 +327,14 @@ TEST(Tree, HandlesAnyScale) {
   for (const float scale : {0x1p-149F, 0x1p-140F, 0x1p-100F, 0x1p-60F, 0x1p30F, 0x1p37F}) {
     Mesh mesh = soup(3000, 0.1F);
     for (Vec3& p : mesh.positions.edit()) p *= scale;
-    check(scene_of({mesh}), Place::blocks);
+    check(scene_with({mesh}), Place::blocks);
     // Adds a triangle of maximum size to the mesh.
-    Scene scene = scene_of({mesh, Triangle{Vec3(-0x1p38F), Vec3(0x1p38F), Vec3(0, 0x1p38F, 0)}});
+    Scene scene = scene_with({mesh, Triangle{Vec3(-0x1p38F), Vec3(0x1p38F), Vec3(0, 0x1p38F, 0)}});
     check(scene, Place::blocks);
   }
   Mesh huge = soup(3000, 0.5F);
   for (Vec3& p : huge.positions.edit()) p *= 0x1p127F;
-  check(scene_of({huge}), Place::others);
+  check(scene_with({huge}), Place::others);
 }
 
 bool same(const Tree& a, const Tree& b) {
@@ -347,7 +347,7 @@ bool same(const Tree& a, const Tree& b) {
 }
 
 TEST(Tree, IsTheSameForAnyNumberOfThreads) {
-  Scene scene = scene_of({generated::displaced_sphere(80000), generated::hall(60000), Plane{}});
+  Scene scene = scene_with({generated::displaced_sphere(80000), generated::hall(60000), Plane{}});
   for (int i = 0; i < 1000; ++i)
     scene.objects.push_back(
         {.name = "", .shape = Sphere{Vec3(0.01F * static_cast<float>(i)), 0.1F}});
@@ -367,7 +367,7 @@ TEST(Tree, IsBetterThanOneOfObjectMedians) {
       {generated::turned(generated::hall(50000)), 0.3},
       {soup(50000, 0.02F), 1}};
   for (const auto& [mesh, most] : cases) {
-    const Scene scene = scene_of({mesh});
+    const Scene scene = scene_with({mesh});
     const Primitives primitives(scene);
     const TreeCost cost = cost_of(build_tree(primitives, {}));
     const TreeCost fast = cost_of(build_tree(primitives, {.fast = true}));
@@ -381,7 +381,7 @@ TEST(Tree, IsSmall) {
   for (const Mesh& mesh :
        {generated::displaced_sphere(200000), generated::terrain(200000), generated::hall(200000)}) {
     const auto triangles = static_cast<double>(mesh.triangles.size());
-    const Scene scene = scene_of({mesh});
+    const Scene scene = scene_with({mesh});
     const Tree tree = build_tree(Primitives(scene), {});
     const double bytes = static_cast<double>(tree.nodes.size() * sizeof(WideNode) +
                                              tree.blocks.size() * sizeof(TriangleBlock));

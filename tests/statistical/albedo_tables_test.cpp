@@ -5,20 +5,18 @@
 #include "render/bsdf/coating.hpp"
 #include "render/bsdf/refraction_loss.hpp"
 #include "render/bsdf/sheen.hpp"
+#include "support/pi.hpp"
 #include "support/shading/direction_pdf.hpp"
 #include "support/shading/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
 
 namespace microtrace::bsdf {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Integrates f over the hemisphere by the midpoint rule in cos(theta)^(1/2) and the azimuth.
 template <class F>

@@ -1,9 +1,9 @@
 #include "render/sampling/sobol.hpp"
+#include "support/pi.hpp"
 #include "support/shading/direction_pdf.hpp"
 #include "support/shading/scattering.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -13,8 +13,6 @@
 
 namespace microtrace::bsdf {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Estimates the directional albedo for wo by sampling.
 template <class Model>

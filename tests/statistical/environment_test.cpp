@@ -1,6 +1,7 @@
 // Compares light from environment maps with quadrature that uses an independent float64 lookup of
 // the map.
 
+#include "support/pi.hpp"
 #include "support/shading/scattering.hpp"
 
 #include <microtrace/path.hpp>
@@ -10,14 +11,11 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 namespace microtrace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Returns a map of a sky that is bluer at the top, a ground, and a sun of a few pixels.
 std::shared_ptr<const RadianceMap> sky() {

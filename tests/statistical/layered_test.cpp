@@ -1,9 +1,9 @@
 #include "render/sampling/sobol.hpp"
+#include "support/pi.hpp"
 #include "support/shading/direction_pdf.hpp"
 #include "support/shading/scattering.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -14,8 +14,6 @@
 
 namespace microtrace::bsdf {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Example {
   const char* name;
@@ -108,7 +106,7 @@ DVec3 scattered(const Scattering& bsdf, std::uint32_t samples) {
 }
 
 /// Computes the directional albedo by the midpoint rule, without sampling.
-DVec3 integrated(const Scattering& bsdf, int steps) {
+DVec3 integrated_layers(const Scattering& bsdf, int steps) {
   DVec3 sum(0);
   for (int i = 0; i < 2 * steps; ++i) {
     for (int j = 0; j < 2 * steps; ++j) {
@@ -165,7 +163,7 @@ TEST(Layered, SamplerAndQuadratureAgree) {
   for (const Example& s : surfaces()) {
     for (const double theta : {0.2, 1.0}) {
       const Scattering bsdf = scattering(s, direction(theta));
-      const DVec3 a = scattered(bsdf, 1U << 14U), b = integrated(bsdf, 200);
+      const DVec3 a = scattered(bsdf, 1U << 14U), b = integrated_layers(bsdf, 200);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.006) << text(s, theta);
     }
   }

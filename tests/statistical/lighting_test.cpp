@@ -1,5 +1,6 @@
 /// Compares directions from light sampling with the pdf of light sampling.
 #include "render/prepared/content.hpp"
+#include "support/pi.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/chi_square.hpp"
 #include "support/shading/light_samples.hpp"
@@ -9,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -19,7 +19,6 @@
 namespace microtrace {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kRows = 16, kColumns = 32;
 
 /// Returns the index of the direction's cell. All cells have the same solid angle.

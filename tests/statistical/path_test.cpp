@@ -1,17 +1,15 @@
+#include "support/pi.hpp"
 #include "support/shading/scattering.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 namespace microtrace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Renders a picture and returns the mean of all pixels.
 DVec3 mean(const Scene& scene, const Camera& camera, std::uint32_t samples,

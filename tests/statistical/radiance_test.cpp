@@ -1,12 +1,12 @@
 /// Compares radiance with closed-form results or quadrature. The tolerance is a multiple of the
 /// estimate's standard deviation.
+#include "support/pi.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -14,20 +14,19 @@
 namespace microtrace {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr ImageSize kSize{.width = 8, .height = 8};
+constexpr ImageSize kRadianceSize{.width = 8, .height = 8};
 constexpr std::uint32_t kSeeds = 12;
 /// The error of a mean of kSeeds estimates exceeds this multiple of its standard deviation once in
 /// 10 000 times (Student's t, 11 degrees of freedom).
 constexpr double kFar = 5.8;
 
-void expect_mean(const Estimate& got, double expected) {
+void expect_radiance_of(const Estimate& got, double expected) {
   EXPECT_NEAR(got.mean, expected, kFar * got.deviation + 1e-5 * expected) << got.deviation;
 }
 
 /// A floor at y = 0. The camera sees a small window of it from straight above.
-struct Floor {
-  explicit Floor(const Material& material) {
+struct LitFloor {
+  explicit LitFloor(const Material& material) {
     scene.materials = {material};
     scene.objects.push_back({.name = "floor",
                              .shape = parallelogram({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}),
@@ -60,7 +59,7 @@ double lit_by(const Material& material, Radiance&& radiance) {
   return sum * 2 * kPi / steps;
 }
 
-const Material kMatt{.base_color = {0.6F, 0.6F, 0.6F, 1}, .roughness = 1};
+const Material kDiffuse{.base_color = {0.6F, 0.6F, 0.6F, 1}, .roughness = 1};
 const Material kShiny{.base_color = {0.9F, 0.9F, 0.9F, 1}, .metallic = 1, .roughness = 0.4F};
 
 /// Returns triangles whose vertices are on the sphere.
@@ -88,14 +87,14 @@ Mesh ball(const DVec3& center, double radius) {
 // A ball is straight above the floor. Its light comes from the cone that is tangent to it.
 TEST(Radiance, EmissiveBallOverFloor) {
   const double edge = std::sqrt(1 - 1 / 9.0);
-  const Shot shot{.size = kSize, .samples = 64, .max_depth = 2};
-  for (const Material& material : {kMatt, kShiny}) {
+  const Shot shot{.size = kRadianceSize, .samples = 64, .max_depth = 2};
+  for (const Material& material : {kDiffuse, kShiny}) {
     const double expected = lit_by(material, [&](double c) { return c > edge ? 5.0 : 0.0; });
-    Floor floor(material);
+    LitFloor floor(material);
     floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = Vec3(5)});
     // Tests the sphere, and then a mesh with the sphere's form.
     floor.scene.objects.push_back({.name = "ball", .shape = Sphere{{0, 3, 0}, 1}, .material = 1});
-    expect_mean(estimate(floor.scene, floor.camera, shot, kSeeds), expected);
+    expect_radiance_of(estimate(floor.scene, floor.camera, shot, kSeeds), expected);
     floor.scene.objects.back().shape = ball({0, 3, 0}, 1);
     const Estimate mesh = estimate(floor.scene, floor.camera, shot, kSeeds);
     // The mesh lies inside the sphere, by at most 1 - cos(pi / 40).
@@ -107,21 +106,21 @@ TEST(Radiance, EmissiveBallOverFloor) {
 // if they are turned inside out.
 TEST(Radiance, OneSidedWalls) {
   const double edge = std::sqrt(1 - 1 / 9.0);
-  Floor floor(kMatt);
+  LitFloor floor(kDiffuse);
   floor.scene.environment = Environment{.content = Vec3(1)};
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .double_sided = false});
   Mesh inside_out = ball({0, 3, 0}, 1);
   for (auto& triangle : inside_out.triangles.edit()) std::swap(triangle[1], triangle[2]);
   floor.scene.objects.push_back({.name = "ball", .shape = inside_out, .material = 1});
-  const Shot shot{.size = kSize, .samples = 64, .max_depth = 2};
+  const Shot shot{.size = kRadianceSize, .samples = 64, .max_depth = 2};
   const Estimate shaded = estimate(floor.scene, floor.camera, shot, kSeeds);
-  const double expected = lit_by(kMatt, [&](double c) { return c > edge ? 0.0 : 1.0; });
+  const double expected = lit_by(kDiffuse, [&](double c) { return c > edge ? 0.0 : 1.0; });
   EXPECT_NEAR(shaded.mean, expected, kFar * shaded.deviation + 0.004 * expected);
 
   // A wall between the floor and the camera, which faces the floor.
   floor.scene.objects.back().shape = parallelogram({-50, 0.5, -50}, {100, 0, 0}, {0, 0, 100});
   floor.scene.materials[0].emissive = Vec3(2);
-  const Shot seen{.size = kSize, .samples = 4, .max_depth = 1};
+  const Shot seen{.size = kRadianceSize, .samples = 4, .max_depth = 1};
   EXPECT_NEAR(estimate(floor.scene, floor.camera, seen, 2).mean, 2, 1e-5);
   floor.scene.materials[1].double_sided = true;
   EXPECT_NEAR(estimate(floor.scene, floor.camera, seen, 2).mean, 0, 1e-5);
@@ -142,11 +141,12 @@ TEST(Radiance, EnvironmentOverFloor) {
     };
     return at(y) + (at(y + 1) - at(y)) * (v - y);
   };
-  for (const Material& material : {kMatt, kShiny}) {
-    Floor floor(material);
+  for (const Material& material : {kDiffuse, kShiny}) {
+    LitFloor floor(material);
     floor.scene.environment = Environment{.content = std::make_shared<const RadianceMap>(map)};
-    expect_mean(estimate(floor.scene, floor.camera, {.size = kSize, .samples = 64}, kSeeds),
-                lit_by(material, radiance));
+    expect_radiance_of(
+        estimate(floor.scene, floor.camera, {.size = kRadianceSize, .samples = 64}, kSeeds),
+        lit_by(material, radiance));
   }
 }
 
@@ -164,7 +164,7 @@ TEST(Radiance, RoomOfEmissiveWhiteWalls) {
             parallelogram(high, -y, -x), parallelogram(high, -z, -y), parallelogram(high, -x, -z)})
         scene.objects.push_back({.name = "wall", .shape = wall, .material = 0});
       scene.environment = Environment{.content = Vec3(1e6F)};  // must not be visible from inside
-      const Shot shot{.size = kSize, .samples = 32, .max_depth = 6};
+      const Shot shot{.size = kRadianceSize, .samples = 32, .max_depth = 6};
       const Estimate room = estimate(scene, EnvironmentCamera{}, shot, kSeeds);
       EXPECT_NEAR(room.mean, 3, kFar * room.deviation + 0.01) << metallic << ' ' << roughness;
     }
@@ -174,10 +174,10 @@ TEST(Radiance, RoomOfEmissiveWhiteWalls) {
 // A quadric is found only by BSDF sampling. Compares an emissive quadric with shapes of the same
 // form that have light sampling. Both estimators must agree.
 TEST(Radiance, SampledAndUnsampledEmittersAgree) {
-  const Shot shot{.size = kSize, .samples = 64};
-  for (const Material& material : {kMatt, kShiny}) {
+  const Shot shot{.size = kRadianceSize, .samples = 64};
+  for (const Material& material : {kDiffuse, kShiny}) {
     const auto lit = [&](const Shape& lamp) {
-      Floor floor(material);
+      LitFloor floor(material);
       floor.camera.height = 8;
       floor.camera.pose.position = {0, 9, 0};
       floor.scene.materials.push_back({.base_color = {0.5F, 0.5F, 0.5F, 1}, .emissive = Vec3(2)});
@@ -207,14 +207,14 @@ class LampShapes : public testing::TestWithParam<Lamp> {};
 // Light sampling makes nearly one sample per pixel sufficient. With BSDF sampling only, the error
 // for lights of this size would exceed the mean.
 TEST_P(LampShapes, HaveTheExpectedRadiance) {
-  for (const Material& material : {kMatt, kShiny}) {
-    Floor floor(material);
+  for (const Material& material : {kDiffuse, kShiny}) {
+    LitFloor floor(material);
     floor.scene.materials.push_back({.double_sided = false, .emissive = Vec3(5)});
     floor.scene.objects.push_back({.name = "lamp", .shape = GetParam().shape, .material = 1});
     const double expected =
         lit_by(material, [](double cosine) { return cosine > GetParam().cosine ? 5.0 : 0.0; });
-    const Estimate got =
-        estimate(floor.scene, floor.camera, {.size = kSize, .samples = 16, .max_depth = 2}, kSeeds);
+    const Estimate got = estimate(floor.scene, floor.camera,
+                                  {.size = kRadianceSize, .samples = 16, .max_depth = 2}, kSeeds);
     EXPECT_NEAR(got.mean, expected, kFar * got.deviation + 2e-3 * expected) << got.deviation;
     EXPECT_LT(got.deviation * std::sqrt(double{kSeeds} * 16 * 64), 0.5 * expected);
   }
@@ -230,13 +230,13 @@ INSTANTIATE_TEST_SUITE_P(All, LampShapes,
 TEST(Radiance, ObliqueSphere) {
   const Material material{
       .base_color = {0.5F, 0.5F, 0.5F, 1}, .roughness = 1, .specular = Specular{.factor = 0}};
-  Floor floor(material);
+  LitFloor floor(material);
   floor.scene.materials.push_back({.emissive = Vec3(3)});
   floor.scene.objects.push_back({.name = "lamp", .shape = Sphere{{4, 3, 0}, 1}, .material = 1});
   const double expected = 0.5 * 3 / 25 * 0.6;
-  expect_mean(
-      estimate(floor.scene, floor.camera, {.size = kSize, .samples = 16, .max_depth = 2}, kSeeds),
-      expected);
+  expect_radiance_of(estimate(floor.scene, floor.camera,
+                              {.size = kRadianceSize, .samples = 16, .max_depth = 2}, kSeeds),
+                     expected);
 }
 
 // A single triangle must emit the same light as a mesh of one triangle.
@@ -245,12 +245,12 @@ TEST(Radiance, SingleTriangle) {
   std::vector<double> means;
   for (const Shape& shape : {Shape{Triangle{a, b, c}},
                              Shape{Mesh{.positions = {a, b, c}, .triangles = {{{0, 1, 2}}}}}}) {
-    Floor floor(kMatt);
+    LitFloor floor(kDiffuse);
     floor.scene.materials.push_back({.emissive = Vec3(3)});
     floor.scene.objects.push_back({.name = "lamp", .shape = shape, .material = 1});
-    means.push_back(
-        mean_of(shoot(floor.scene, floor.camera, {.size = kSize, .samples = 16, .max_depth = 2}))
-            .y);
+    means.push_back(mean_of(shoot(floor.scene, floor.camera,
+                                  {.size = kRadianceSize, .samples = 16, .max_depth = 2}))
+                        .y);
   }
   EXPECT_NEAR(means[0], means[1], 1e-4 * means[1]);
 }
@@ -258,12 +258,12 @@ TEST(Radiance, SingleTriangle) {
 // A half-opaque emitter must emit half as much light, both by light sampling and by BSDF sampling.
 TEST(Radiance, EmitterWithHalfOpacity) {
   const auto lit = [](float alpha, const Shape& shape) {
-    Floor floor(kShiny);
+    LitFloor floor(kShiny);
     floor.scene.materials.push_back(
         {.base_color = {0, 0, 0, alpha}, .alpha_mode = AlphaMode::blend, .emissive = Vec3(3)});
     floor.scene.objects.push_back({.name = "lamp", .shape = shape, .material = 1});
-    return estimate(floor.scene, floor.camera, {.size = kSize, .samples = 64, .max_depth = 2},
-                    kSeeds);
+    return estimate(floor.scene, floor.camera,
+                    {.size = kRadianceSize, .samples = 64, .max_depth = 2}, kSeeds);
   };
   for (const Shape& shape : {Shape{parallelogram({-1, 2, -1}, {2, 0, 0}, {0, 0, 2})},
                              Shape{Disc{{0, 2, 0}, {0, 1, 0}, 1}}, Shape{Sphere{{0, 3, 0}, 1}}}) {

@@ -1,6 +1,7 @@
 // Compares BsdfModel::spec with an independent implementation of the specification's formulas.
 
 #include "render/sampling/sobol.hpp"
+#include "support/pi.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/direction_pdf.hpp"
 #include "support/shading/scattering.hpp"
@@ -20,9 +21,7 @@
 namespace microtrace::bsdf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-struct Example {
+struct SpecExample {
   const char* name;
   Parameters base;
   Layers layers{};
@@ -37,7 +36,7 @@ struct Example {
 };
 
 /// Returns one surface of each kind.
-std::vector<Example> surfaces(float roughness) {
+std::vector<SpecExample> surfaces(float roughness) {
   const Parameters dielectric{.base_color = {0.9F, 0.6F, 0.2F}, .roughness = roughness};
   const auto changed = [&](auto change) {
     Parameters p = dielectric;
@@ -87,7 +86,7 @@ TEST(SpecBsdf, ValuesAreThoseOfTheSpecification) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> u(0, 1);
   for (const float roughness : {0.25F, 0.6F, 1.0F}) {
-    for (const Example& surface : surfaces(roughness)) {
+    for (const SpecExample& surface : surfaces(roughness)) {
       for (int i = 0; i < 200; ++i) {
         const Vec3 wo = direction(std::acos(0.05 + 0.95 * u(random)), 7 * u(random));
         const Vec3 wi = direction(std::acos(2 * u(random) - 1), 7 * u(random));
@@ -103,7 +102,7 @@ TEST(SpecBsdf, ValuesAreThoseOfTheSpecification) {
 
 TEST(SpecBsdf, SamplesHaveTheirPdf) {
   std::mt19937 random(2);
-  for (const Example& surface : surfaces(0.4F)) {
+  for (const SpecExample& surface : surfaces(0.4F)) {
     for (const double theta : {0.3, 1.1}) {
       const PdfTest result =
           test_pdf(surface.scattering(direction(theta, 0.7)),
@@ -115,7 +114,7 @@ TEST(SpecBsdf, SamplesHaveTheirPdf) {
 }
 
 /// Estimates the directional albedo for wo by sampling.
-double albedo(const Example& surface, const Vec3& wo) {
+double albedo(const SpecExample& surface, const Vec3& wo) {
   const Scattering bsdf = surface.scattering(wo);
   constexpr std::uint32_t samples = 1U << 15U;
   double sum = 0;
@@ -140,7 +139,7 @@ double integrated(const SpecReference& reference, const DVec3& v) {
 }
 
 TEST(SpecBsdf, SamplerAndQuadratureAgree) {
-  for (const Example& surface : surfaces(0.6F)) {
+  for (const SpecExample& surface : surfaces(0.6F)) {
     for (const double theta : {0.2, 0.9}) {
       const Vec3 wo = direction(theta, 0.7);
       EXPECT_NEAR(albedo(surface, wo), integrated(surface.reference(), DVec3(wo)), 0.005)
@@ -152,7 +151,7 @@ TEST(SpecBsdf, SamplerAndQuadratureAgree) {
 // The albedo of single scattering by GGX with alpha = 1 at normal incidence is the integral of 2
 // cos(2 t) / (1 + cos(2 t)) over the normals' sin(2 t), up to t = 45 degrees: 1 - log(2).
 TEST(SpecBsdf, RoughMetalLosesEnergy) {
-  const Example metal{"metal", {.base_color = Vec3(1), .metallic = 1, .roughness = 1}};
+  const SpecExample metal{"metal", {.base_color = Vec3(1), .metallic = 1, .roughness = 1}};
   EXPECT_NEAR(albedo(metal, direction(0)), 1 - std::numbers::ln2, 0.002);
 }
 

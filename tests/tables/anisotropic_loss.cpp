@@ -1,4 +1,5 @@
 #include "tables/albedos.hpp"
+#include "tables/alpha_pairs.hpp"
 #include "tables/fit.hpp"
 #include "tables/header_text.hpp"
 #include "tables/stated_errors.hpp"
@@ -18,50 +19,9 @@ namespace {
 /// The number of powers of each variable. The loss and its edge term have four variables, and their
 /// means have two.
 constexpr std::size_t kAlphaPowers = 5, kAzimuthPowers = 5, kCosinePowers = 8;
-constexpr std::size_t kEdgeAlphaPowers = 3, kEdgeAzimuthPowers = 3, kEdgeCosinePowers = 4;
+constexpr std::size_t kEdgeAlphaPowers = 5, kEdgeAzimuthPowers = 6, kEdgeCosinePowers = 6;
 constexpr std::size_t kMeanPowers = 7;
-constexpr double kLossPenalty = 5, kEdgePenalty = 10;
-
-using Points = std::vector<double>;
-
-/// Returns n points in [0, 1] that are denser at the ends.
-Points chebyshev(std::size_t n) {
-  Points result;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double turn = std::numbers::pi * static_cast<double>(i) / static_cast<double>(n - 1);
-    result.push_back(0.5 - 0.5 * cos_radians(turn));
-  }
-  return result;
-}
-
-/// Returns the centers of n equal parts of [0, 1].
-Points middles(std::size_t n) {
-  Points result;
-  for (std::size_t i = 0; i < n; ++i)
-    result.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(n));
-  return result;
-}
-
-/// The square roots of the smaller and of the larger alpha.
-struct Pair {
-  double smaller, greater;
-
-  [[nodiscard]] double alpha_x() const { return greater * greater; }
-  [[nodiscard]] double alpha_y() const { return smaller * smaller; }
-};
-
-/// Returns the pairs that KHR_materials_anisotropy defines for these roughnesses and strengths.
-std::vector<Pair> pairs(const Points& roughnesses, const Points& strengths) {
-  constexpr double least = 0.0316227766016837933;  // square root of the smallest alpha
-  std::vector<Pair> result;
-  for (const double roughness : roughnesses) {
-    const double smaller = std::max(roughness, least), alpha = smaller * smaller;
-    for (const double strength : strengths)
-      result.push_back(
-          {.smaller = smaller, .greater = std::sqrt(alpha + (1 - alpha) * strength * strength)});
-  }
-  return result;
-}
+constexpr double kLossPenalty = 5, kEdgePenalty = 60;
 
 /// Appends the first powers of 2 x - 1.
 void append_powers(Points& row, double x, std::size_t count) {
@@ -180,14 +140,13 @@ Polynomial4 loss_fit() {
 }
 
 Polynomial4 edge_fit() {
-  const std::vector<Pair> at = pairs(middles(kRoughnesses), middles(kStrengths));
-  Points azimuths = middles(16);  // equidistant angles, for pairs in which one alpha is much larger
-  for (double& place : azimuths) place = cos_radians(place * std::numbers::pi / 2);
+  const std::vector<Pair> at = pairs(chebyshev(kRoughnesses), middles(kStrengths));
+  // Equidistant angles, for pairs in which one alpha is much larger
+  Points azimuths;
+  for (int i = 0; i <= 16; ++i) azimuths.push_back(cos_radians(i * std::numbers::pi / 32));
   const Points cosines = middles(12);
-  // Errors of rougher facets have larger weights. A polynomial can't follow the sharpest facets,
-  // and trying to do so would make it worse everywhere else.
   Points differences, pair_weights, cosine_weights;
-  for (const Pair& pair : at) pair_weights.push_back(pair.smaller * (pair.greater - pair.smaller));
+  for (const Pair& pair : at) pair_weights.push_back(pair.greater - pair.smaller);
   for (const double root : cosines) cosine_weights.push_back(1 - root);
   for (const Pair& pair : at) {
     const Alphas alphas{.x = pair.alpha_x(), .y = pair.alpha_y()};
@@ -198,7 +157,7 @@ Polynomial4 edge_fit() {
         const double z = root * root;
         const double difference = ggx_albedo(alphas, azimuth.direction(z), points()).schlick -
                                   ggx_albedo(alike, tilted(z), points()).schlick;
-        differences.push_back(-pair.smaller * difference);
+        differences.push_back(-difference);
       }
     }
   }
@@ -253,18 +212,19 @@ Means mean_fit(const Polynomial4& loss, const Polynomial4& edge) {
   return {.loss = fit(axes, losses), .edge = fit(axes, edges)};
 }
 
+std::vector<std::size_t> sizes(const Polynomial4& p) {
+  return {p.alphas, p.alphas, p.azimuths, p.cosines};
+}
+
 }  // namespace
 
 std::string anisotropic_loss_table() {
-  const Polynomial4 loss = loss_fit(), edge = edge_fit();
-  const Means means = mean_fit(loss, edge);
-  const auto sizes = [](const Polynomial4& p) {
-    return std::vector{p.alphas, p.alphas, p.azimuths, p.cosines};
-  };
+  const Polynomial4 loss = loss_fit();
+  const Means means = mean_fit(loss, edge_fit());
   return header_text(
       "Albedos of an anisotropic GGX reflector, as polynomials that are fitted to the integrals of "
       "ggx_albedo_table.hpp. The fit of the loss rarely exceeds the integral, and the fit of the "
-      "Schlick term is rarely below it.\n"
+      "Schlick term in anisotropic_schlick_table.hpp is rarely below it.\n"
       "\n"
       "As AnisotropicGgxAlbedo evaluates them, albedos for F = 1 are " +
           error_text(kAnisotropicF1Error) + ". Albedos for Schlick's term are " +
@@ -284,20 +244,31 @@ std::string anisotropic_loss_table() {
       "using AnisotropicLossPlane = Polynomial2<5, 8>;\n" +
           table_text("std::array<std::array<AnisotropicLossPlane, 5>, 5> kAnisotropicLoss",
                      loss.coefficients, sizes(loss), 5) +
-          "\n"
-          "/// For F = (1 - cos)^5, the albedo of single scattering minus that of an isotropic "
-          "reflector of\n"
-          "/// alpha c, divided by (sqrt(b) - sqrt(a)) (1 - sqrt(z)). The variables are those of\n"
-          "/// kAnisotropicLoss, except that the last x is sqrt(z).\n"
-          "using AnisotropicSchlickPlane = Polynomial2<3, 4>;\n" +
-          table_text("std::array<std::array<AnisotropicSchlickPlane, 3>, 3> kAnisotropicSchlick",
-                     edge.coefficients, sizes(edge), 4) +
           "\n/// The cosine-weighted means of these albedos, by powers of the first two "
           "variables.\n" +
           table_text("Polynomial2<7, 7> kMeanAnisotropicLoss", means.loss,
                      {kMeanPowers, kMeanPowers}, 6) +
           table_text("Polynomial2<7, 7> kMeanAnisotropicSchlick", means.edge,
                      {kMeanPowers, kMeanPowers}, 6) +
+          "\n// clang-format on\n");
+}
+
+std::string anisotropic_schlick_table() {
+  const Polynomial4 edge = edge_fit();
+  return header_text(
+      "The albedo of an anisotropic GGX reflector for F = (1 - cos)^5, as a polynomial.\n",
+      {"render/bsdf/tables/anisotropic_loss_table.hpp"},
+      "// clang-format off\n"
+      "\n"
+      "/// The albedo of single scattering minus that of an isotropic reflector of alpha c, "
+      "divided "
+      "by\n"
+      "/// (sqrt(b) - sqrt(a)) (1 - sqrt(z)). The variables are those of kAnisotropicLoss, except "
+      "that\n"
+      "/// the last x is sqrt(z).\n"
+      "using AnisotropicSchlickPlane = Polynomial2<6, 6>;\n" +
+          table_text("std::array<std::array<AnisotropicSchlickPlane, 5>, 5> kAnisotropicSchlick",
+                     edge.coefficients, sizes(edge), 4) +
           "\n// clang-format on\n");
 }
 

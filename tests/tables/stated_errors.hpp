@@ -36,10 +36,11 @@ inline constexpr StatedError kLossWithinError{.above = 0.011, .below = 0.11, .rm
 /// Measured over roughness, strength, azimuth, and cos(theta). The cosine has equal steps of its
 /// square root, or of the last variable of the loss.
 inline constexpr StatedError kAnisotropicF1Error{.above = 0.016, .below = 0.0035, .rms = 0.0013};
-inline constexpr StatedError kAnisotropicSchlickError{.above = 0.18, .below = 0.024, .rms = 0.009};
+inline constexpr StatedError kAnisotropicSchlickError{
+    .above = 0.028, .below = 0.017, .rms = 0.0013};
 /// Compared with the means of the polynomials.
 inline constexpr StatedError kAnisotropicMeanF1Error{.above = 0, .below = 0.0022, .rms = 0.0016};
 inline constexpr StatedError kAnisotropicMeanSchlickError{
-    .above = 0.0007, .below = 0.0003, .rms = 0.0002};
+    .above = 0.0003, .below = 0.00025, .rms = 0.0001};
 
 }  // namespace microtrace::tables

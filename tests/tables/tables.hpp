@@ -14,6 +14,7 @@ namespace microtrace::tables {
 [[nodiscard]] std::string refraction_loss_table();
 [[nodiscard]] std::string refraction_loss_within_table();
 [[nodiscard]] std::string anisotropic_loss_table();
+[[nodiscard]] std::string anisotropic_schlick_table();
 
 struct Header {
   std::string_view name;
@@ -28,6 +29,7 @@ inline constexpr std::array kHeaders{
     Header{"refraction_loss_table.hpp", refraction_loss_table},
     Header{"refraction_loss_within_table.hpp", refraction_loss_within_table},
     Header{"anisotropic_loss_table.hpp", anisotropic_loss_table},
+    Header{"anisotropic_schlick_table.hpp", anisotropic_schlick_table},
 };
 
 }  // namespace microtrace::tables

@@ -19,7 +19,7 @@ class AnisotropicGgxAlbedo {
         range_(square_root<N>(ggx.along_alpha()) - smaller_) {
     const F x = 2 * smaller_ - 1, y = 2 * (smaller_ + range_) - 1;
     insert<N, 5>(kTables.anisotropic_loss, x, y, loss_);
-    insert<N, 3>(kTables.anisotropic_schlick, x, y, edge_);
+    insert<N, 5>(kTables.anisotropic_schlick, x, y, edge_);
     // upper bound of the amount by which the polynomial is too small
     constexpr float margin = 0.0015F;
     mean_ = {1 - value<N, 7, 7>(kTables.mean_anisotropic_loss, x, y) - margin,
@@ -51,13 +51,13 @@ class AnisotropicGgxAlbedo {
     const F azimuth = 2 * clamped(place, zero, one) - 1, root = square_root<N>(z);
     const F loss =
         clamped(value<N, 5, 8>(loss_, azimuth, 2 * (z * (1 + alpha) / (z + alpha)) - 1), zero, one);
-    const F more = range_ * (1 - root) * value<N, 3, 4>(edge_, azimuth, 2 * root - 1);
+    const F more = range_ * (1 - root) * value<N, 6, 6>(edge_, azimuth, 2 * root - 1);
     return {1 - loss, clamped(GgxAlbedo<N>(alpha).at(z).schlick + more, zero, 1 - loss)};
   }
 
   AnisotropicGgx<N> ggx_;
   F smaller_, range_;  // square root of the smaller alpha, and the difference of the square roots
-  F loss_[5 * 8], edge_[3 * 4];
+  F loss_[5 * 8], edge_[6 * 6];
   Albedo<N> mean_;
 };
 

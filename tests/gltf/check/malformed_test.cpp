@@ -23,7 +23,7 @@ struct Mutation {
 };
 
 // Accessor 0 of the cube has 8 positions (96 bytes), accessor 1 has 36 indices (72 bytes).
-const Mutation mutations[] = {
+const Mutation kMalformed[] = {
     // The asset as a whole
     {"/asset", "", kInvalid, ""},
     {"/asset", "[]", kInvalid},
@@ -168,7 +168,7 @@ const Mutation mutations[] = {
 };
 
 TEST(GltfMalformed, EveryMutationIsRefusedAtItsPointer) {
-  for (const Mutation& mutation : mutations) {
+  for (const Mutation& mutation : kMalformed) {
     SCOPED_TRACE(std::string(mutation.where) + " = " + mutation.value);
     try {
       (void)load(mutated(cube(), mutation.where, mutation.value));

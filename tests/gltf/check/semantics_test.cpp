@@ -20,7 +20,7 @@ struct Change {
 
 constexpr const char* kAttributes = "/meshes/0/primitives/0/attributes";
 
-const Change refused[] = {
+const Change kRefused[] = {
     // Meshes
     {"/meshes/0/primitives/0/indices", "10"},
 
@@ -55,7 +55,7 @@ const Change refused[] = {
      "/meshes/0/primitives/0/extensions/KHR_materials_variants"},
 };
 
-const Change survived[] = {
+const Change kSurvivedChanges[] = {
     {"/meshes/0/primitives/0/attributes/TEXCOORD_01", "3"},
     {"/meshes/0/primitives/0/attributes/TEXCOORD_", "3"},
     {"/meshes/0/primitives/0/attributes/JOINTS", "5"},
@@ -142,7 +142,7 @@ TEST(GltfSemantics, TheUnchangedRigIsValid) {
 }
 
 TEST(GltfSemantics, InvalidAssetsAreRefusedAtTheirPointer) {
-  for (const Change& change : refused) {
+  for (const Change& change : kRefused) {
     SCOPED_TRACE(std::string(change.where) + " = " + change.value);
     try {
       (void)load(mutated(rig(), change.where, change.value));
@@ -155,7 +155,7 @@ TEST(GltfSemantics, InvalidAssetsAreRefusedAtTheirPointer) {
 }
 
 TEST(GltfSemantics, HarmlessViolationsGiveWarningsAtTheirPointer) {
-  for (const Change& change : survived) {
+  for (const Change& change : kSurvivedChanges) {
     SCOPED_TRACE(std::string(change.where) + " = " + change.value);
     AssetBuilder asset = rig();
     // Accessor 14 has a type that vertex attributes must not have. Some changes use it for an

@@ -20,7 +20,7 @@ struct Survived {
   const char* message;
 };
 
-const Survived mutations[] = {
+const Survived kSurvived[] = {
     // The asset as a whole
     {"/asset/version", "\"2.1\"", "/asset/version", "read as glTF 2.0"},
     {"/asset/minVersion", "\"2.1\"", "/asset/minVersion", "greater than version"},
@@ -117,7 +117,7 @@ const Survived mutations[] = {
 };
 
 TEST(GltfSurvived, EveryMutationIsDrawnWithAWarningAtItsPointer) {
-  for (const auto& [where, value, pointer, message] : mutations) {
+  for (const auto& [where, value, pointer, message] : kSurvived) {
     SCOPED_TRACE(std::string(where) + " = " + value);
     EXPECT_THAT(texts(load(mutated(cube(), where, value)).warnings),
                 Contains(AllOf(HasSubstr(std::string(pointer) + ": "), HasSubstr(message))));

@@ -10,12 +10,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 
 /// Returns the triangle (0,0,0) (1,0,0) (0,1,0) on a node at x = 100.
-AssetBuilder triangle() {
+AssetBuilder instanced_triangle() {
   AssetBuilder asset;
-  asset.json["extensionsUsed"] = {kExtension};
+  asset.json["extensionsUsed"] = {kInstancing};
   asset.add_object(
       {{"attributes", {{"POSITION", asset.add_positions({Vec3(0), {1, 0, 0}, {0, 1, 0}})}}}});
   asset.json["nodes"][0]["translation"] = {100, 0, 0};
@@ -24,8 +24,8 @@ AssetBuilder triangle() {
 }
 
 template <typename Number>
-std::size_t add(AssetBuilder& asset, int type, const char* shape, bool normalized,
-                const std::vector<Number>& numbers, std::size_t count) {
+std::size_t add_attribute(AssetBuilder& asset, int type, const char* shape, bool normalized,
+                          const std::vector<Number>& numbers, std::size_t count) {
   return asset.add("accessors", {{"bufferView", asset.add_view(bytes_of<Number>(numbers))},
                                  {"componentType", type},
                                  {"normalized", normalized},
@@ -34,15 +34,17 @@ std::size_t add(AssetBuilder& asset, int type, const char* shape, bool normalize
 }
 
 void instantiate(AssetBuilder& asset, Json attributes) {
-  asset.json["nodes"][0]["extensions"][kExtension]["attributes"] = std::move(attributes);
+  asset.json["nodes"][0]["extensions"][kInstancing]["attributes"] = std::move(attributes);
 }
 
 TEST(GltfInstances, AreTransformedWithinTheirNode) {
-  AssetBuilder asset = triangle();
-  const std::size_t moves = add<float>(asset, kFloat32, "VEC3", false, {0, 0, 0, 0, 10, 0}, 2);
+  AssetBuilder asset = instanced_triangle();
+  const std::size_t moves =
+      add_attribute<float>(asset, kFloat32, "VEC3", false, {0, 0, 0, 0, 10, 0}, 2);
   const std::size_t turns =
-      add<std::int16_t>(asset, 5122, "VEC4", true, {0, 0, 0, 32767, 0, 0, 32767, 0}, 2);
-  const std::size_t sizes = add<float>(asset, kFloat32, "VEC3", false, {1, 1, 1, 2, 3, 4}, 2);
+      add_attribute<std::int16_t>(asset, 5122, "VEC4", true, {0, 0, 0, 32767, 0, 0, 32767, 0}, 2);
+  const std::size_t sizes =
+      add_attribute<float>(asset, kFloat32, "VEC3", false, {1, 1, 1, 2, 3, 4}, 2);
   instantiate(asset, {{"TRANSLATION", moves}, {"ROTATION", turns}, {"SCALE", sizes}});
   const LoadedScene scene = load(asset);
   EXPECT_THAT(scene.warnings, IsEmpty());
@@ -57,14 +59,16 @@ TEST(GltfInstances, AreTransformedWithinTheirNode) {
 }
 
 TEST(GltfInstances, CustomAttributesMayDefineTheirNumber) {
-  AssetBuilder asset = triangle();
-  instantiate(asset, {{"_ID", add<float>(asset, kFloat32, "SCALAR", false, {7, 8, 9}, 3)}});
+  AssetBuilder asset = instanced_triangle();
+  instantiate(asset,
+              {{"_ID", add_attribute<float>(asset, kFloat32, "SCALAR", false, {7, 8, 9}, 3)}});
   EXPECT_THAT(load(asset).scene.objects, SizeIs(3));
 }
 
 TEST(GltfInstances, ZeroQuaternionsAreIgnored) {
-  AssetBuilder asset = triangle();
-  instantiate(asset, {{"ROTATION", add<float>(asset, kFloat32, "VEC4", false, {0, 0, 0, 0}, 1)}});
+  AssetBuilder asset = instanced_triangle();
+  instantiate(
+      asset, {{"ROTATION", add_attribute<float>(asset, kFloat32, "VEC4", false, {0, 0, 0, 0}, 1)}});
   const LoadedScene scene = load(asset);
   EXPECT_THAT(texts(scene.warnings), ElementsAre(HasSubstr("zero quaternions")));
   EXPECT_EQ(triangles_of(scene.scene.objects.at(0))[0][1], Vec3(101, 0, 0));
@@ -84,10 +88,11 @@ TEST(GltfInstances, InvalidAttributesAreRefused) {
       {"SCALE", kFloat32, "VEC3", 3, "/attributes/_OTHER"},
   };
   for (const Case& c : cases) {
-    AssetBuilder asset = triangle();
+    AssetBuilder asset = instanced_triangle();
     const std::vector<float> zeros(16);
-    instantiate(asset, {{c.name, add<float>(asset, c.type, c.shape, false, zeros, c.count)},
-                        {"_OTHER", add<float>(asset, kFloat32, "SCALAR", false, zeros, 2)}});
+    instantiate(asset,
+                {{c.name, add_attribute<float>(asset, c.type, c.shape, false, zeros, c.count)},
+                 {"_OTHER", add_attribute<float>(asset, kFloat32, "SCALAR", false, zeros, 2)}});
     try {
       (void)load(asset);
       ADD_FAILURE() << c.name << " accepted";
@@ -99,7 +104,7 @@ TEST(GltfInstances, InvalidAttributesAreRefused) {
 }
 
 TEST(GltfInstances, TooManyAreRefusedBeforeAllocation) {
-  AssetBuilder asset = triangle();
+  AssetBuilder asset = instanced_triangle();
   instantiate(asset, {{"SCALE", asset.add("accessors", {{"componentType", kFloat32},
                                                         {"count", (1U << 22) + 1},
                                                         {"type", "VEC3"}})}});
@@ -112,7 +117,7 @@ TEST(GltfInstances, TooManyAreRefusedBeforeAllocation) {
 }
 
 TEST(GltfVisibility, HidesANodeAndItsDescendantsButNoCamera) {
-  AssetBuilder asset = triangle();
+  AssetBuilder asset = instanced_triangle();
   asset.json["extensionsUsed"] = {"KHR_node_visibility"};
   asset.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
   const std::size_t child = asset.add(

@@ -12,7 +12,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Mesh first_mesh(const LoadedScene& loaded) {
+Mesh posed_mesh(const LoadedScene& loaded) {
   return std::get<Mesh>(loaded.scene.objects.at(0).shape);
 }
 
@@ -61,14 +61,14 @@ const std::vector<Vec3> straight = {Vec3(0, -1, 0), Vec3(0, 1, 0),  Vec3(1, -1, 
 
 TEST(GltfSkin, BindPoseEqualsTheMesh) {
   const LoadedScene loaded = load(arm());
-  EXPECT_EQ(first_mesh(loaded).positions, straight);
+  EXPECT_EQ(posed_mesh(loaded).positions, straight);
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }
 
 TEST(GltfSkin, ElbowBendsByNinetyDegrees) {
   AssetBuilder asset = arm();
   asset.json["nodes"][2]["rotation"] = {0, 0, half, half};
-  const Mesh mesh = first_mesh(load(asset));
+  const Mesh mesh = posed_mesh(load(asset));
   // The positions at the elbow are the means of (1, y) and (1 - y, 0).
   expect_near(mesh.positions, {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1.5F, -0.5F, 0),
                                Vec3(0.5F, 0.5F, 0), Vec3(2, 1, 0), Vec3(0, 1, 0)});
@@ -81,7 +81,7 @@ TEST(GltfSkin, AnimatedJointsMoveTheMesh) {
   const auto h = static_cast<float>(half);
   asset.animate(0, 1, "rotation", asset.add_numbers<float>("SCALAR", {0, 1}),
                 asset.add_numbers<float>("VEC4", {0, 0, 0, 1, 0, 0, h, h}));
-  expect_near(first_mesh(load(asset, {.time = 1})).positions,
+  expect_near(posed_mesh(load(asset, {.time = 1})).positions,
               {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0), Vec3(1, 2, 0),
                Vec3(-1, 2, 0)});
 }
@@ -90,14 +90,14 @@ TEST(GltfSkin, TheNodesTransformIsIgnored) {
   AssetBuilder asset = arm();
   asset.json["nodes"][0].update({{"translation", {5, 6, 7}}, {"scale", {-2, 2, 2}}});
   const LoadedScene loaded = load(asset);
-  EXPECT_EQ(first_mesh(loaded).positions, straight);
-  EXPECT_EQ(first_mesh(loaded).triangles, first_mesh(load(arm())).triangles);
+  EXPECT_EQ(posed_mesh(loaded).positions, straight);
+  EXPECT_EQ(posed_mesh(loaded).triangles, posed_mesh(load(arm())).triangles);
 }
 
 TEST(GltfSkin, InverseBindMatricesDefaultToIdentity) {
   AssetBuilder asset = arm();
   asset.json["skins"][0].erase("inverseBindMatrices");
-  expect_near(first_mesh(load(asset)).positions, {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1.5F, -1, 0),
+  expect_near(posed_mesh(load(asset)).positions, {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1.5F, -1, 0),
                                                   Vec3(1.5F, 1, 0), Vec3(3, -1, 0), Vec3(3, 1, 0)});
 }
 
@@ -105,32 +105,32 @@ TEST(GltfSkin, JointsMayBeOutsideTheScene) {
   AssetBuilder asset = arm();
   asset.json["scenes"][0]["nodes"] = {0};
   asset.json["nodes"][1]["translation"] = {0, 0, 4};
-  for (const Vec3& p : first_mesh(load(asset)).positions) EXPECT_EQ(p.z, 4);
+  for (const Vec3& p : posed_mesh(load(asset)).positions) EXPECT_EQ(p.z, 4);
 }
 
 TEST(GltfSkin, MirroringJointsReverseTheWinding) {
   AssetBuilder asset = arm();
   asset.json["nodes"][1]["scale"] = {1, -1, 1};
   const LoadedScene loaded = load(asset);
-  Array<std::array<std::uint32_t, 3>> turned = first_mesh(load(arm())).triangles;
+  Array<std::array<std::uint32_t, 3>> turned = posed_mesh(load(arm())).triangles;
   for (auto& corners : turned.edit()) std::swap(corners[1], corners[2]);
-  EXPECT_EQ(first_mesh(loaded).triangles, turned);
-  EXPECT_EQ(first_mesh(loaded).normals[0], Vec3(0, 0, 1));
+  EXPECT_EQ(posed_mesh(loaded).triangles, turned);
+  EXPECT_EQ(posed_mesh(loaded).normals[0], Vec3(0, 0, 1));
 }
 
 TEST(GltfSkin, ReadsJointsAndWeightsOfAllTypesAndSets) {
-  EXPECT_EQ(first_mesh(load(arm<std::uint16_t>())).positions, straight);
+  EXPECT_EQ(posed_mesh(load(arm<std::uint16_t>())).positions, straight);
   AssetBuilder asset = arm();
   asset.json["nodes"][2]["translation"] = {1, 0, 8};
   Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
   const std::vector<std::uint8_t> bytes = {255, 0,   0, 0, 255, 0, 0, 0, 51,  204, 0, 0,
                                            51,  204, 0, 0, 255, 0, 0, 0, 255, 0,   0, 0};
   attributes["WEIGHTS_0"] = asset.add_numbers<std::uint8_t>("VEC4", bytes, true);
-  EXPECT_FLOAT_EQ(first_mesh(load(asset)).positions[2].z, 6.4F);
+  EXPECT_FLOAT_EQ(posed_mesh(load(asset)).positions[2].z, 6.4F);
   std::vector<std::uint16_t> shorts;
   for (const std::uint8_t byte : bytes) shorts.push_back(static_cast<std::uint16_t>(257 * byte));
   attributes["WEIGHTS_0"] = asset.add_numbers<std::uint16_t>("VEC4", shorts, true);
-  EXPECT_FLOAT_EQ(first_mesh(load(asset)).positions[2].z, 6.4F);
+  EXPECT_FLOAT_EQ(posed_mesh(load(asset)).positions[2].z, 6.4F);
   // The first set of influences gives the shoulder a weight of 1/4. The second set gives the elbow
   // a weight of 3/4.
   std::vector<float> quarter, rest;
@@ -144,7 +144,7 @@ TEST(GltfSkin, ReadsJointsAndWeightsOfAllTypesAndSets) {
       asset.add_numbers<std::uint8_t>("VEC4", std::vector<std::uint8_t>(24, 1));
   attributes["WEIGHTS_1"] = asset.add_numbers<float>("VEC4", rest);
   const LoadedScene loaded = load(asset);
-  for (const Vec3& p : first_mesh(loaded).positions) EXPECT_EQ(p.z, 6);
+  for (const Vec3& p : posed_mesh(loaded).positions) EXPECT_EQ(p.z, 6);
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }
 
@@ -154,7 +154,7 @@ TEST(GltfSkin, MorphingPrecedesSkinning) {
   asset.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", asset.add_positions(up)}}};
   asset.json["meshes"][0]["weights"] = {1};
   asset.json["nodes"][1]["rotation"] = {0, 0, half, half};
-  expect_near(first_mesh(load(asset)).positions, {Vec3(0, 0, 0), Vec3(-2, 0, 0), Vec3(0, 1, 0),
+  expect_near(posed_mesh(load(asset)).positions, {Vec3(0, 0, 0), Vec3(-2, 0, 0), Vec3(0, 1, 0),
                                                   Vec3(-2, 1, 0), Vec3(0, 2, 0), Vec3(-2, 2, 0)});
 }
 
@@ -165,7 +165,7 @@ TEST(GltfSkin, WeightsAreNormalizedWithAWarning) {
   asset.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
       asset.add_numbers<float>("VEC4", weights);
   const LoadedScene loaded = load(asset);
-  EXPECT_EQ(first_mesh(loaded).positions, straight);
+  EXPECT_EQ(posed_mesh(loaded).positions, straight);
   EXPECT_THAT(
       texts(loaded.warnings),
       testing::UnorderedElementsAre(
@@ -193,7 +193,7 @@ TEST(GltfSkin, MeshWithoutJointsIsPlacedByItsNode) {
   attributes.erase("WEIGHTS_0");
   asset.json["nodes"][0]["translation"] = {0, 0, 3};
   const LoadedScene loaded = load(asset);
-  EXPECT_EQ(first_mesh(loaded).positions[0], Vec3(0, -1, 3));
+  EXPECT_EQ(posed_mesh(loaded).positions[0], Vec3(0, -1, 3));
   EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("JOINTS_0")));
 }
 

@@ -13,21 +13,21 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr const char* kExtension = "KHR_lights_punctual";
+constexpr const char* kPunctual = "KHR_lights_punctual";
 
 /// Returns the cube, and each of these lights on a node of its own. All nodes have the same
 /// rotation and scale.
 AssetBuilder lit(const Json& lights) {
   AssetBuilder asset = cube();
-  asset.json["extensionsUsed"] = {kExtension};
-  asset.json["extensions"][kExtension]["lights"] = lights;
+  asset.json["extensionsUsed"] = {kPunctual};
+  asset.json["extensions"][kPunctual]["lights"] = lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     // A rotation of 90 degrees about x maps -z to +y.
     const std::size_t node =
         asset.add("nodes", {{"translation", {1, 2, 3}},
                             {"rotation", {0.7071067811865476, 0, 0, 0.7071067811865476}},
                             {"scale", {2, 3, 4}},
-                            {"extensions", {{kExtension, {{"light", i}}}}}});
+                            {"extensions", {{kPunctual, {{"light", i}}}}}});
     asset.json["scenes"][0]["nodes"].push_back(node);
   }
   return asset;

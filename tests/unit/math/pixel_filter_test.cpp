@@ -1,14 +1,13 @@
 #include "render/samples/pixel_filter.hpp"
 
+#include "support/pi.hpp"
+
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 namespace microtrace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Returns the four-term Blackman-Harris window, 3 pixels wide and normalized, at t pixels from its
 /// center.

@@ -10,7 +10,7 @@ namespace microtrace {
 namespace {
 
 // The reference comes from the C library's long double functions, which have 11 more bits.
-double units_in_last_place(double value, long double exact) {
+double ulps_of(double value, long double exact) {
   const double ulp = std::nextafter(std::abs(static_cast<double>(exact)), HUGE_VAL) -
                      std::abs(static_cast<double>(exact));
   return static_cast<double>(std::abs(static_cast<long double>(value) - exact)) / ulp;
@@ -22,9 +22,9 @@ TEST(Trigonometry, StaysWithinTwoUnitsInTheLastPlace) {
   for (int i = 0; i < 200000; ++i) {
     const double x = angle(random);
     const long double l = x;
-    ASSERT_LE(units_in_last_place(sin_radians(x), std::sin(l)), 2) << x;
-    ASSERT_LE(units_in_last_place(cos_radians(x), std::cos(l)), 2) << x;
-    ASSERT_LE(units_in_last_place(tan_radians(x), std::tan(l)), 4) << x;
+    ASSERT_LE(ulps_of(sin_radians(x), std::sin(l)), 2) << x;
+    ASSERT_LE(ulps_of(cos_radians(x), std::cos(l)), 2) << x;
+    ASSERT_LE(ulps_of(tan_radians(x), std::tan(l)), 4) << x;
   }
 }
 
@@ -52,7 +52,7 @@ TEST(Trigonometry, ArctangentStaysWithinFourUnitsInTheLastPlace) {
   std::uniform_real_distribution<double> angle(-1.57, 1.57), exponent(-300, 300);
   for (int i = 0; i < 200000; ++i) {
     const double x = i % 2 == 0 ? std::tan(angle(random)) : std::pow(10.0, exponent(random));
-    ASSERT_LE(units_in_last_place(atan_radians(x), std::atan(static_cast<long double>(x))), 4) << x;
+    ASSERT_LE(ulps_of(atan_radians(x), std::atan(static_cast<long double>(x))), 4) << x;
   }
   EXPECT_EQ(atan_radians(0), 0);
   EXPECT_EQ(atan_radians(HUGE_VAL), std::numbers::pi / 2);

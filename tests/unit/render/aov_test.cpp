@@ -17,8 +17,8 @@
 namespace microtrace {
 namespace {
 
-constexpr ImageSize kSize{.width = 37, .height = 23};
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr ImageSize kAovSize{.width = 37, .height = 23};
+constexpr float kAovInfinity = std::numeric_limits<float>::infinity();
 
 template <typename Number>
 const std::vector<Number>& channel(const Film& film, const std::string& name) {
@@ -45,7 +45,7 @@ DVec3 triple(const Film& film, const std::string& aov, std::size_t pixel,
 
 Film drawn(const Scene& scene, const Camera& camera, RenderOptions options = {}) {
   if (options.aovs.empty()) options.aovs.assign(kAovs.begin(), kAovs.end());
-  return render(scene, camera, kSize, options);
+  return render(scene, camera, kAovSize, options);
 }
 
 Scene scene_of(std::vector<Shape> shapes) {
@@ -57,9 +57,9 @@ Scene scene_of(std::vector<Shape> shapes) {
 }
 
 DVec3 direction_to(std::size_t pixel, const Camera& camera) {
-  const RayGenerator rays(camera, kSize);
-  return glm::normalize(DVec3(rays(static_cast<double>(pixel % kSize.width) + 0.5,
-                                   static_cast<double>(pixel / kSize.width) + 0.5)
+  const RayGenerator rays(camera, kAovSize);
+  return glm::normalize(DVec3(rays(static_cast<double>(pixel % kAovSize.width) + 0.5,
+                                   static_cast<double>(pixel / kAovSize.width) + 0.5)
                                   .d));
 }
 
@@ -119,9 +119,9 @@ TEST(Aov, NormalsOfASphere) {
   int seen = 0;
   for (std::size_t i = 0; i < floats(film, "depth.Z").size(); ++i) {
     const DVec3 normal = triple(film, "normal", i);
-    if (floats(film, "depth.Z")[i] == kInfinity) {
+    if (floats(film, "depth.Z")[i] == kAovInfinity) {
       EXPECT_EQ(normal, DVec3(0));
-      EXPECT_EQ(floats(film, "distance.T")[i], kInfinity);
+      EXPECT_EQ(floats(film, "distance.T")[i], kAovInfinity);
       EXPECT_EQ(triple(film, "position", i), DVec3(0));
       EXPECT_EQ(ids(film, "instance")[i], 0U);
       continue;
@@ -229,7 +229,7 @@ TEST(Aov, SamplesThreadsAndCropHaveNoEffect) {
           std::size_t i = 0;
           for (std::uint32_t y = crop.y0; y < crop.y1; ++y) {
             for (std::uint32_t x = crop.x0; x < crop.x1; ++x)
-              EXPECT_EQ(cut[i++], whole[std::size_t{y} * kSize.width + x]);
+              EXPECT_EQ(cut[i++], whole[std::size_t{y} * kAovSize.width + x]);
           }
           EXPECT_EQ(i, cut.size());
         },
@@ -269,15 +269,15 @@ TEST(AovIntegrator, DrawsTheSameNumbers) {
     if (aov == Aov::id) continue;
     SCOPED_TRACE(name_of(aov));
     const AovIntegrator integrator(aov);
-    const Film picture = render(scene, PerspectiveCamera{}, kSize, {.integrator = &integrator});
+    const Film picture = render(scene, PerspectiveCamera{}, kAovSize, {.integrator = &integrator});
     const std::string prefix = std::string(name_of(aov)) + ".";
     int component = 0;
     for (const Channel& c : film.channels) {
       if (!c.name.starts_with(prefix)) continue;
       const auto& values = std::get<std::vector<float>>(c.values);
-      for (std::uint32_t y = 0; y < kSize.height; ++y) {
-        for (std::uint32_t x = 0; x < kSize.width; ++x)
-          EXPECT_EQ(picture.row(y)[x][component], values[std::size_t{y} * kSize.width + x]);
+      for (std::uint32_t y = 0; y < kAovSize.height; ++y) {
+        for (std::uint32_t x = 0; x < kAovSize.width; ++x)
+          EXPECT_EQ(picture.row(y)[x][component], values[std::size_t{y} * kAovSize.width + x]);
       }
       ++component;
     }
@@ -293,12 +293,13 @@ TEST(AovIntegrator, ShowsNumbersInEightBits) {
   const Scene scene = scene_of({Disc{{-2, 0, -4}, {0, 0, 1}, 2}, Disc{{3, 0, -9}, {0, 0, 1}, 2}});
   const auto display = [&](Aov aov) {
     const AovIntegrator integrator(aov);
-    return render(scene, PerspectiveCamera{.vertical_fov = 1.5}, kSize, {.integrator = &integrator})
+    return render(scene, PerspectiveCamera{.vertical_fov = 1.5}, kAovSize,
+                  {.integrator = &integrator})
         .display;
   };
   EXPECT_NEAR(shown(display(Aov::depth), 4), 1, 1e-6);
   EXPECT_NEAR(shown(display(Aov::depth), 9), 0.2, 1e-6);
-  EXPECT_EQ(shown(display(Aov::depth), kInfinity), -kInfinity);
+  EXPECT_EQ(shown(display(Aov::depth), kAovInfinity), -kAovInfinity);
   EXPECT_EQ(shown(display(Aov::normal), -1), 0);
   EXPECT_EQ(shown(display(Aov::normal), 1), 1);
   EXPECT_EQ(shown(display(Aov::uv), 0.25F), 0.25F);
@@ -316,7 +317,7 @@ TEST(AovIntegrator, AsksForOneSample) {
                                           {.aovs = {Aov::depth, Aov::uv, Aov::depth}}};
   for (const RenderOptions& options : bad) {
     try {
-      (void)render(Scene{}, PerspectiveCamera{}, kSize, options);
+      (void)render(Scene{}, PerspectiveCamera{}, kAovSize, options);
       ADD_FAILURE();
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::usage);

@@ -5,6 +5,7 @@
 #include "render/lights/studio.hpp"
 #include "render/prepared/shared_tables.hpp"
 #include "render/sampling/sobol.hpp"
+#include "support/pi.hpp"
 
 #include <array>
 #include <bit>
@@ -12,7 +13,6 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <numbers>
 #include <random>
 #include <span>
 #include <vector>
@@ -28,8 +28,6 @@ EnvironmentLight::Sample sample_of(const EnvironmentLight& light, const Vec2& u)
   light.sample({&u, 1}, {&sample, 1});
   return sample;
 }
-
-constexpr double kPi = std::numbers::pi;
 
 std::shared_ptr<const RadianceMap> map_of(
     std::uint32_t width, std::uint32_t height,

@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-constexpr ImageSize kSize{.width = 640, .height = 480};
+constexpr ImageSize kExposureSize{.width = 640, .height = 480};
 
 /// A plane that fills the picture and emits this radiance in its green channel.
 Scene glowing(float radiance) {
@@ -21,7 +21,7 @@ Scene glowing(float radiance) {
   return scene;
 }
 
-double exposure_of(Scene scene, ImageSize size = kSize, RenderOptions options = {}) {
+double exposure_of(Scene scene, ImageSize size = kExposureSize, RenderOptions options = {}) {
   const PathIntegrator path;
   if (options.integrator == nullptr) options.integrator = &path;
   const PreparedScene prepared(std::move(scene));
@@ -61,15 +61,15 @@ TEST(AutomaticExposure, DependsOnNeitherSamplesNorSeedNorCropNorThreads) {
   scene.objects.push_back({.shape = Sphere{{0, 0, -0.8F}, 0.1F}, .material = 0});
   const double exposure = exposure_of(scene);
   EXPECT_LT(exposure, -3);
-  EXPECT_EQ(exposure, exposure_of(scene, kSize, {.threads = 3, .samples = 7, .seed = 5}));
-  EXPECT_EQ(exposure, exposure_of(scene, kSize, {.crop = PixelRect{0, 0, 5, 5}}));
+  EXPECT_EQ(exposure, exposure_of(scene, kExposureSize, {.threads = 3, .samples = 7, .seed = 5}));
+  EXPECT_EQ(exposure, exposure_of(scene, kExposureSize, {.crop = PixelRect{0, 0, 5, 5}}));
   EXPECT_EQ(exposure, exposure_of(scene, {.width = 1280, .height = 960}));
   EXPECT_NO_THROW((void)exposure_of(scene, {.width = 1, .height = 65536}));
 }
 
 TEST(AutomaticExposure, IsZeroForPicturesOfQuantities) {
   const auto depth = make_integrator(Aov::depth);
-  EXPECT_EQ(exposure_of(glowing(100), kSize, {.integrator = depth.get()}), 0);
+  EXPECT_EQ(exposure_of(glowing(100), kExposureSize, {.integrator = depth.get()}), 0);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@
 namespace microtrace {
 namespace {
 
-constexpr ImageSize kSize{.width = 24, .height = 24};
+constexpr ImageSize kGroundSize{.width = 24, .height = 24};
 constexpr double kExtent = 4;  // the cameras below see a square of this size
 
 struct Setting {
@@ -31,7 +31,7 @@ struct Setting {
 
 Film draw(const Scene& scene, const Camera& camera, const Setting& setting = {}) {
   const PathIntegrator path({.backfaces = setting.backfaces, .ground = setting.ground});
-  return render(scene, camera, kSize,
+  return render(scene, camera, kGroundSize,
                 {.threads = 1,
                  .integrator = &path,
                  .samples = setting.samples,
@@ -47,14 +47,15 @@ Camera from_above(double height) {
 
 /// The point on the ground at a pixel's center.
 DVec3 ground_point(std::uint32_t x, std::uint32_t y) {
-  return {((x + 0.5) / kSize.width - 0.5) * kExtent, 0, ((y + 0.5) / kSize.height - 0.5) * kExtent};
+  return {((x + 0.5) / kGroundSize.width - 0.5) * kExtent, 0,
+          ((y + 0.5) / kGroundSize.height - 0.5) * kExtent};
 }
 
 /// Calls f(ground point, alpha) for each pixel.
 template <class F>
 void for_each_pixel(Film film, const F& f) {
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
-    for (std::uint32_t x = 0; x < kSize.width; ++x)
+  for (std::uint32_t y = 0; y < kGroundSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kGroundSize.width; ++x)
       f(ground_point(x, y), double{film.alpha_at(x, y)});
   }
 }
@@ -85,12 +86,12 @@ TEST(Ground, ShowsTheClosedFormBelowADisc) {
   double difference = 0, greatest = 0;
   for_each_pixel(film, [&](const DVec3& p, double alpha) {
     const double expected = blocked_by_disc(std::hypot(p.x, p.z), 1, 0.8);
-    difference += (alpha - expected) / (kSize.width * kSize.height);
+    difference += (alpha - expected) / (kGroundSize.width * kGroundSize.height);
     greatest = std::max(greatest, std::abs(alpha - expected));
   });
   EXPECT_NEAR(difference, 0, 1e-3);
   EXPECT_LT(greatest, 0.06);
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
+  for (std::uint32_t y = 0; y < kGroundSize.height; ++y) {
     for (const Vec3& color : film.row(y)) EXPECT_EQ(color, Vec3(0));
   }
 }
@@ -102,7 +103,7 @@ TEST(Ground, LightPassesOneSidedSurfacesAsInTheRestOfThePicture) {
     double sum = 0;
     for_each_pixel(draw(scene, from_above(0.5), {.backfaces = backfaces}),
                    [&](const DVec3&, double alpha) { sum += alpha; });
-    return sum / (kSize.width * kSize.height);
+    return sum / (kGroundSize.width * kGroundSize.height);
   };
   EXPECT_GT(mean(Backfaces::occlude), 0.99);
   // The rays from the ground meet the back, which light from above leaves through.
@@ -179,10 +180,10 @@ TEST(Ground, TransparentSurfacesCastLighterShadows) {
                  [](const DVec3&, double alpha) { EXPECT_EQ(alpha, 0.25); });
 }
 
-std::vector<Vec4> pixels_of(Film film) {
+std::vector<Vec4> rgba_of(Film film) {
   std::vector<Vec4> result;
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
-    for (std::uint32_t x = 0; x < kSize.width; ++x)
+  for (std::uint32_t y = 0; y < kGroundSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kGroundSize.width; ++x)
       result.emplace_back(film.at(x, y), film.has_alpha() ? film.alpha_at(x, y) : 1);
   }
   return result;
@@ -199,16 +200,16 @@ TEST(Ground, IsAtTheLowestPointByDefault) {
       {.name = "lowest", .shape = Triangle{{1, -0.75F, 1}, {2, 0, 1}, {1, 1, 1}}, .material = {}});
   scene.objects.push_back({.name = "wall", .shape = Plane{{0, 0, 20}, {0, 0, -1}}, .material = {}});
   const Camera camera = from_the_side();
-  const auto lowest = pixels_of(draw(scene, camera, {.ground = Ground{}}));
-  EXPECT_EQ(lowest, pixels_of(draw(scene, camera, {.ground = Ground{.height = -0.75}})));
-  EXPECT_TRUE(lowest != pixels_of(draw(scene, camera, {.ground = Ground{.height = -0.7}})));
+  const auto lowest = rgba_of(draw(scene, camera, {.ground = Ground{}}));
+  EXPECT_EQ(lowest, rgba_of(draw(scene, camera, {.ground = Ground{.height = -0.75}})));
+  EXPECT_TRUE(lowest != rgba_of(draw(scene, camera, {.ground = Ground{.height = -0.7}})));
   // The height is in world space.
   scene.origin = {5, 1000, 7};
-  EXPECT_EQ(lowest, pixels_of(draw(scene, camera, {.ground = Ground{.height = 999.25}})));
+  EXPECT_EQ(lowest, rgba_of(draw(scene, camera, {.ground = Ground{.height = 999.25}})));
   // Without bounded shapes there is no lowest point.
   scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 2);
-  EXPECT_EQ(pixels_of(draw(scene, camera, {.ground = Ground{}})),
-            pixels_of(draw(scene, camera, {.ground = std::nullopt})));
+  EXPECT_EQ(rgba_of(draw(scene, camera, {.ground = Ground{}})),
+            rgba_of(draw(scene, camera, {.ground = std::nullopt})));
 }
 
 TEST(Ground, DoesNotDependOnTheDistanceFromTheOrigin) {
@@ -224,7 +225,7 @@ TEST(Ground, DoesNotDependOnTheDistanceFromTheOrigin) {
   const Film near = draw(box_at(DVec3(0)), from_the_side(), {.ground = Ground{}});
   for (const std::optional<double> height : {std::optional<double>(), std::optional(by.y)}) {
     const Film far = draw(box_at(by), from_the_side(by), {.ground = Ground{.height = height}});
-    EXPECT_EQ(pixels_of(near), pixels_of(far));
+    EXPECT_EQ(rgba_of(near), rgba_of(far));
   }
 }
 
@@ -232,8 +233,8 @@ TEST(Ground, ChangesOnlyPixelsThatShowIt) {
   const Scene scene = scene_of(Sphere{{0, 1, 0}, 1}, {.content = Studio{}});
   Film with = draw(scene, from_the_side()), without = draw(scene, from_the_side(), {.ground = {}});
   int covered = 0, shaded = 0;
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
-    for (std::uint32_t x = 0; x < kSize.width; ++x) {
+  for (std::uint32_t y = 0; y < kGroundSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kGroundSize.width; ++x) {
       EXPECT_EQ(with.at(x, y), without.at(x, y));  // shadows are black
       const float alpha = without.alpha_at(x, y);
       EXPECT_GE(with.alpha_at(x, y), alpha);
@@ -253,8 +254,8 @@ TEST(Ground, DarkensTheBackground) {
   Film over = draw(scene, camera, {.transparent = false});
   scene.environment->is_background = true;
   Film environment = draw(scene, camera);
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
-    for (std::uint32_t x = 0; x < kSize.width; ++x) {
+  for (std::uint32_t y = 0; y < kGroundSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kGroundSize.width; ++x) {
       const float light = 1 - alphas.alpha_at(x, y);
       EXPECT_NEAR(over.at(x, y).x, 0.5F * light, 1e-6);
       EXPECT_NEAR(over.at(x, y).z, light, 1e-6);
@@ -268,7 +269,7 @@ TEST(Ground, IsInvisibleFromBelowAndWithoutLight) {
   const Camera up =
       PerspectiveCamera{.pose = {.position = {0, -1, 0}, .direction = {0, 1, 0}, .up = {0, 0, 1}}};
   Scene scene = scene_of(Sphere{{0, 5, 0}, 0.1F}, uniform(1));
-  EXPECT_EQ(pixels_of(draw(scene, up)), pixels_of(draw(scene, up, {.ground = {}})));
+  EXPECT_EQ(rgba_of(draw(scene, up)), rgba_of(draw(scene, up, {.ground = {}})));
   scene = scene_of(Disc{{0, 1, 0}, {0, 1, 0}, 100}, uniform(0));
   for_each_pixel(draw(scene, from_above(0.5)),
                  [](const DVec3&, double alpha) { EXPECT_EQ(alpha, 0); });

@@ -35,14 +35,14 @@ class NoiseIntegrator final : public Integrator {
   [[nodiscard]] bool is_random() const override { return true; }
 };
 
-constexpr ImageSize kSize{.width = 21, .height = 18};  // tiles are clipped on both sides
+constexpr ImageSize kPassSize{.width = 21, .height = 18};  // tiles are clipped on both sides
 
 Film drawn(RenderOptions options) {
   const NoiseIntegrator integrator;
   options.integrator = &integrator;
   Scene scene;
   scene.background = Vec3(0.5F, 3, 0.1F);
-  return render(scene, PerspectiveCamera{}, kSize, options);
+  return render(scene, PerspectiveCamera{}, kPassSize, options);
 }
 
 void expect_equal(const Film& a, const Film& b) {
@@ -96,7 +96,7 @@ TEST(Passes, ContinueFromExistingSamples) {
   RenderCounts counts;
   const Film more = drawn({.samples = 45, .passes = Passes{.sums = &sums}, .counts = &counts});
   expect_equal(more, drawn({.samples = 45}));
-  EXPECT_EQ(counts.samples, 25U * kSize.width * kSize.height);
+  EXPECT_EQ(counts.samples, 25U * kPassSize.width * kPassSize.height);
   EXPECT_EQ(counts.samples_per_pixel, 45U);
   EXPECT_EQ(counts.invalid_samples, 0U);
 }
@@ -153,9 +153,9 @@ TEST(Passes, RefuseInvalidOptions) {
   };
   for (const RenderOptions& options : bad) EXPECT_THROW((void)drawn(options), Error);
   const FlatIntegrator flat;
-  EXPECT_THROW(
-      (void)render(Scene{}, PerspectiveCamera{}, kSize, {.integrator = &flat, .passes = Passes{}}),
-      Error);
+  EXPECT_THROW((void)render(Scene{}, PerspectiveCamera{}, kPassSize,
+                            {.integrator = &flat, .passes = Passes{}}),
+               Error);
 }
 
 }  // namespace

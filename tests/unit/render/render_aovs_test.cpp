@@ -25,7 +25,7 @@
 namespace microtrace {
 namespace {
 
-constexpr ImageSize kSize{.width = 43, .height = 27};
+constexpr ImageSize kAovsSize{.width = 43, .height = 27};
 constexpr std::uint32_t kGuard = 0xDEADBEEF;
 
 /// Returns a bumpy square of n x n x 2 triangles that faces +z, with normals and texture
@@ -147,12 +147,12 @@ std::vector<Camera> cameras() {
 class Reference {
  public:
   Reference(const PreparedScene& scene, const Camera& camera)
-      : content_(&scene.content(), [](const auto*) {}), camera_(camera, kSize) {
+      : content_(&scene.content(), [](const auto*) {}), camera_(camera, kAovsSize) {
     if (std::ranges::any_of(scene.scene().objects, [](const Object& object) {
           const auto* mesh = std::get_if<Mesh>(&object.shape);
           return mesh != nullptr && !mesh->segments.empty();
         }))
-      content_ = scene.content().widened(camera, kSize);
+      content_ = scene.content().widened(camera, kAovsSize);
   }
 
   [[nodiscard]] std::vector<float> at(std::uint32_t x, std::uint32_t y, Aov aov) const {
@@ -282,13 +282,13 @@ TEST_P(RenderAovs, AreThoseOfSingleRays) {
     memories.reserve(kAovs.size());
     for (const Aov aov : kAovs) {
       const auto channels = static_cast<std::ptrdiff_t>(channels_of(aov).size());
-      memories.emplace_back(aov, kSize, kSize.width * channels, channels, 1);
+      memories.emplace_back(aov, kAovsSize, kAovsSize.width * channels, channels, 1);
       buffers.push_back(memories.back().buffer());
     }
-    render_aovs(scene, camera, kSize, buffers, {.threads = 1});
+    render_aovs(scene, camera, kAovsSize, buffers, {.threads = 1});
     for (std::size_t k = 0; k < kAovs.size(); ++k) {
-      for (std::uint32_t y = 0; y < kSize.height; ++y) {
-        for (std::uint32_t x = 0; x < kSize.width; ++x) {
+      for (std::uint32_t y = 0; y < kAovsSize.height; ++y) {
+        for (std::uint32_t x = 0; x < kAovsSize.width; ++x) {
           const std::vector<float> expected = reference.at(x, y, kAovs[k]);
           for (std::size_t c = 0; c < channels_of(kAovs[k]).size(); ++c)
             ASSERT_EQ(memories[k].take(x, y, c), std::bit_cast<std::uint32_t>(expected[c]))
@@ -306,7 +306,8 @@ TEST_P(RenderAovs, AreChannelsOfTheFilm) {
   for (const Camera& camera : cameras()) {
     for (const Aov aov : kAovs) {
       SCOPED_TRACE(name_of(aov));
-      const Film film = render(scene, camera, kSize, {.threads = 2, .crop = crop, .aovs = {aov}});
+      const Film film =
+          render(scene, camera, kAovsSize, {.threads = 2, .crop = crop, .aovs = {aov}});
       const auto count = static_cast<std::ptrdiff_t>(channels_of(aov).size());
       const std::ptrdiff_t width = crop.size().width, height = crop.size().height;
       struct Strides {
@@ -318,7 +319,7 @@ TEST_P(RenderAovs, AreChannelsOfTheFilm) {
             Strides{1, height, -width * height}, Strides{4 * width, 4, 1}}) {
         Memory memory(aov, crop.size(), s.row, s.pixel, s.channel);
         const std::array buffers{memory.buffer()};
-        render_aovs(scene, camera, kSize, buffers, {.threads = 2, .crop = crop});
+        render_aovs(scene, camera, kAovsSize, buffers, {.threads = 2, .crop = crop});
         for (std::size_t c = 0; c < film.channels.size(); ++c) {
           std::visit(
               [&](const auto& values) {
@@ -341,17 +342,17 @@ TEST(RenderAovs, StoreSingleChannels) {
   const PreparedScene scene(everything(), {.threads = 1});
   for (const Aov aov : kAovs) {
     const auto count = static_cast<std::ptrdiff_t>(channels_of(aov).size());
-    Memory all(aov, kSize, kSize.width * count, count, 1);
+    Memory all(aov, kAovsSize, kAovsSize.width * count, count, 1);
     std::vector<Memory> singles;
     std::vector<AovBuffer> buffers{all.buffer()};
     singles.reserve(3);
     for (std::size_t c = 0; c < channels_of(aov).size(); ++c) {
-      singles.emplace_back(aov, kSize, 2 * kSize.width, 2, 0);
+      singles.emplace_back(aov, kAovsSize, 2 * kAovsSize.width, 2, 0);
       buffers.push_back(singles.back().buffer(c));
     }
-    render_aovs(scene, PerspectiveCamera{}, kSize, buffers, {.threads = 1});
-    for (std::uint32_t y = 0; y < kSize.height; ++y) {
-      for (std::uint32_t x = 0; x < kSize.width; ++x) {
+    render_aovs(scene, PerspectiveCamera{}, kAovsSize, buffers, {.threads = 1});
+    for (std::uint32_t y = 0; y < kAovsSize.height; ++y) {
+      for (std::uint32_t x = 0; x < kAovsSize.width; ++x) {
         for (std::size_t c = 0; c < singles.size(); ++c)
           ASSERT_EQ(singles[c].take(x, y, 0), all.take(x, y, c)) << name_of(aov) << " " << c;
       }
@@ -362,14 +363,14 @@ TEST(RenderAovs, StoreSingleChannels) {
 
 TEST(RenderAovs, IgnoreOtherOptions) {
   const PreparedScene scene(everything(), {.threads = 1});
-  Memory one(Aov::depth, kSize, kSize.width, 1, 1), other = one;
+  Memory one(Aov::depth, kAovsSize, kAovsSize.width, 1, 1), other = one;
   const FlatIntegrator flat;
-  render_aovs(scene, PerspectiveCamera{}, kSize, std::array{one.buffer()}, {.threads = 1});
+  render_aovs(scene, PerspectiveCamera{}, kAovsSize, std::array{one.buffer()}, {.threads = 1});
   render_aovs(
-      scene, PerspectiveCamera{}, kSize, std::array{other.buffer()},
+      scene, PerspectiveCamera{}, kAovsSize, std::array{other.buffer()},
       {.threads = 3, .integrator = &flat, .samples = 16, .aovs = {Aov::id}, .transparent = true});
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
-    for (std::uint32_t x = 0; x < kSize.width; ++x)
+  for (std::uint32_t y = 0; y < kAovsSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kAovsSize.width; ++x)
       ASSERT_EQ(one.take(x, y, 0), other.take(x, y, 0));
   }
 }
@@ -377,7 +378,7 @@ TEST(RenderAovs, IgnoreOtherOptions) {
 void expect_refused(const AovBuffer& buffer, const RenderOptions& options, const char* message) {
   const PreparedScene scene(Scene{}, {.threads = 1});
   try {
-    render_aovs(scene, PerspectiveCamera{}, kSize, std::array{buffer}, options);
+    render_aovs(scene, PerspectiveCamera{}, kAovsSize, std::array{buffer}, options);
     ADD_FAILURE() << "no error: " << message;
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -386,7 +387,7 @@ void expect_refused(const AovBuffer& buffer, const RenderOptions& options, const
 }
 
 TEST(RenderAovs, RefuseWrongBuffers) {
-  std::vector<float> floats(kSize.width * kSize.height);
+  std::vector<float> floats(kAovsSize.width * kAovsSize.height);
   std::vector<std::uint32_t> integers(floats.size());
   expect_refused({.aov = Aov::depth}, {}, "depth is a null pointer");
   expect_refused({.aov = Aov::id, .data = floats.data()}, {}, "id needs std::uint32_t");
@@ -398,12 +399,12 @@ TEST(RenderAovs, RefuseWrongBuffers) {
 
 TEST(RenderAovs, ReportAndCancel) {
   const PreparedScene scene(everything(), {.threads = 1});
-  std::vector<float> depths(kSize.width * kSize.height);
-  const AovBuffer buffer{.aov = Aov::depth, .data = depths.data(), .row_stride = kSize.width};
+  std::vector<float> depths(kAovsSize.width * kAovsSize.height);
+  const AovBuffer buffer{.aov = Aov::depth, .data = depths.data(), .row_stride = kAovsSize.width};
   RenderCounts counts;
   RenderTimes times{.build = -1, .trace = -1};
   double done = 0;
-  render_aovs(scene, PerspectiveCamera{}, kSize, std::array{buffer},
+  render_aovs(scene, PerspectiveCamera{}, kAovsSize, std::array{buffer},
               {.threads = 2,
                .progress =
                    [&](double fraction) {
@@ -419,7 +420,7 @@ TEST(RenderAovs, ReportAndCancel) {
   EXPECT_GE(times.build, 0);
   EXPECT_GE(times.trace, 0);
   try {
-    render_aovs(scene, PerspectiveCamera{}, kSize, std::array{buffer},
+    render_aovs(scene, PerspectiveCamera{}, kAovsSize, std::array{buffer},
                 {.threads = 2, .progress = [](double) { return false; }});
     ADD_FAILURE() << "not canceled";
   } catch (const Error& error) {
@@ -429,18 +430,18 @@ TEST(RenderAovs, ReportAndCancel) {
 
 TEST(RenderAovs, RunOnThreadsOfTheHost) {
   const PreparedScene scene(everything(), {.threads = 1});
-  Memory own(Aov::normal, kSize, 3 * kSize.width, 3, 1), host = own;
-  render_aovs(scene, PerspectiveCamera{}, kSize, std::array{own.buffer()}, {.threads = 1});
+  Memory own(Aov::normal, kAovsSize, 3 * kAovsSize.width, 3, 1), host = own;
+  render_aovs(scene, PerspectiveCamera{}, kAovsSize, std::array{own.buffer()}, {.threads = 1});
   std::atomic<int> calls = 0;
-  render_aovs(scene, PerspectiveCamera{}, kSize, std::array{host.buffer()},
+  render_aovs(scene, PerspectiveCamera{}, kAovsSize, std::array{host.buffer()},
               {.threads = 3, .run_threads = [&](unsigned count, const std::function<void()>& work) {
                  std::vector<std::jthread> threads;
                  for (unsigned i = 0; i < count; ++i)
                    threads.emplace_back([&] { ++calls, work(); });
                }});
   EXPECT_EQ(calls, 3);
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
-    for (std::uint32_t x = 0; x < kSize.width; ++x) {
+  for (std::uint32_t y = 0; y < kAovsSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kAovsSize.width; ++x) {
       for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(own.take(x, y, c), host.take(x, y, c));
     }
   }

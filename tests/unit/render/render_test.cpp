@@ -19,12 +19,12 @@
 namespace microtrace {
 namespace {
 
-constexpr Vec3 kNear{1, 0, 0}, kFar{0, 0, 1}, kBackground{0, 1, 0};
+constexpr Vec3 kNear{1, 0, 0}, kFar{0, 0, 1}, kRenderBackground{0, 1, 0};
 
 // Renders one pixel that looks along -z at two discs, at the distances 4 and 6.
 Vec3 pixel(float epsilon, const PerspectiveCamera& camera = {}) {
   Scene scene;
-  scene.background = kBackground;
+  scene.background = kRenderBackground;
   scene.epsilon = epsilon;
   scene.materials = {{.base_color = Vec4(kNear, 1)}, {.base_color = Vec4(kFar, 1)}};
   scene.objects.push_back({.name = "near", .shape = Disc{{0, 0, -4}, {0, 0, 1}, 1}, .material = 0});
@@ -37,13 +37,13 @@ TEST(Render, HitsLieInTheOpenIntervalFromEpsilon) {
   EXPECT_EQ(pixel(std::nextafter(4.0F, 0.0F)), kNear);
   EXPECT_EQ(pixel(4), kFar);
   EXPECT_EQ(pixel(std::nextafter(6.0F, 0.0F)), kFar);
-  EXPECT_EQ(pixel(6), kBackground);
+  EXPECT_EQ(pixel(6), kRenderBackground);
 }
 
 TEST(Render, CameraSeesItsDepthRange) {
   EXPECT_EQ(pixel(0, {.depth = {.near = 4, .far = 10}}), kNear);
   EXPECT_EQ(pixel(0, {.depth = {.near = 4.5, .far = 10}}), kFar);
-  EXPECT_EQ(pixel(0, {.depth = {.near = 4.5, .far = 5.5}}), kBackground);
+  EXPECT_EQ(pixel(0, {.depth = {.near = 4.5, .far = 5.5}}), kRenderBackground);
 }
 
 TEST(Render, ProgressEndsAtOne) {

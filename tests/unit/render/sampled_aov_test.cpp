@@ -24,11 +24,11 @@ class AlternatingIntegrator final : public Integrator {
   [[nodiscard]] bool is_random() const override { return true; }
 };
 
-constexpr ImageSize kSize{.width = 20, .height = 20};
+constexpr ImageSize kSampledSize{.width = 20, .height = 20};
 
 /// Renders the half plane x < 0.33 with an orthographic camera that shows [-1, 1] x [-1, 1]. The
 /// half plane covers 0.3 of each pixel in column 13.
-Film drawn(RenderOptions options) {
+Film drawn_samples(RenderOptions options) {
   Scene scene;
   scene.background = Vec3(1);
   scene.materials = {{.base_color = Vec4(0.5F, 1, 0.25F, 1)}};
@@ -37,22 +37,22 @@ Film drawn(RenderOptions options) {
                            .material = 0});
   static const AlternatingIntegrator integrator;
   if (options.integrator == nullptr) options.integrator = &integrator;
-  return render(scene, OrthographicCamera{.pose = {.position = {0, 0, 1}}}, kSize, options);
+  return render(scene, OrthographicCamera{.pose = {.position = {0, 0, 1}}}, kSampledSize, options);
 }
 
 float value(const Film& film, std::size_t channel, std::uint32_t x, std::uint32_t y) {
-  return std::get<std::vector<float>>(film.channels.at(channel).values)[y * kSize.width + x];
+  return std::get<std::vector<float>>(film.channels.at(channel).values)[y * kSampledSize.width + x];
 }
 
 TEST(SampledAov, VarianceAndNumberOfSamples) {
   const std::vector<SampledAov> wanted = {SampledAov::variance, SampledAov::samples};
-  const Film film = drawn({.samples = 10, .sampled_aovs = wanted});
+  const Film film = drawn_samples({.samples = 10, .sampled_aovs = wanted});
   ASSERT_EQ(film.channels.size(), 2U);
   EXPECT_EQ(film.channels[0].name, "variance.Y");
   EXPECT_EQ(film.channels[1].name, "samples.N");
   EXPECT_NEAR(value(film, 0, 7, 3), 1.0 / 9, 1e-6);  // (mean of squares - square of mean) / (n - 1)
   EXPECT_EQ(value(film, 1, 19, 19), 10);
-  const Film by_passes = drawn({.samples = 10, .passes = Passes{}, .sampled_aovs = wanted});
+  const Film by_passes = drawn_samples({.samples = 10, .passes = Passes{}, .sampled_aovs = wanted});
   EXPECT_EQ(value(by_passes, 0, 7, 3), value(film, 0, 7, 3));
 }
 
@@ -63,9 +63,9 @@ float albedo_of(float base) {
 
 TEST(SampledAov, FeaturesAreFilteredLikeColors) {
   const Film film =
-      drawn({.samples = 4,
-             .aovs = {Aov::depth},
-             .sampled_aovs = {SampledAov::denoise_normal, SampledAov::denoise_albedo}});
+      drawn_samples({.samples = 4,
+                     .aovs = {Aov::depth},
+                     .sampled_aovs = {SampledAov::denoise_normal, SampledAov::denoise_albedo}});
   ASSERT_EQ(film.channels.size(), 7U);
   EXPECT_EQ(film.channels[0].name, "depth.Z");
   EXPECT_EQ(film.channels[1].name, "denoise_normal.X");
@@ -82,9 +82,9 @@ TEST(SampledAov, FeaturesAreFilteredLikeColors) {
 
 TEST(SampledAov, NoisyIsTheColor) {
   const std::vector<SampledAov> wanted = {SampledAov::noisy};
-  const Film film = drawn({.samples = 10, .sampled_aovs = wanted});
-  const Film by_passes = drawn({.samples = 10, .passes = Passes{}, .sampled_aovs = wanted});
-  for (std::uint32_t x = 0; x < kSize.width; ++x) {
+  const Film film = drawn_samples({.samples = 10, .sampled_aovs = wanted});
+  const Film by_passes = drawn_samples({.samples = 10, .passes = Passes{}, .sampled_aovs = wanted});
+  for (std::uint32_t x = 0; x < kSampledSize.width; ++x) {
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_EQ(value(film, c, x, 7), film.row(7)[x][static_cast<glm::length_t>(c)]);
       EXPECT_EQ(value(by_passes, c, x, 7), value(film, c, x, 7));
@@ -218,8 +218,10 @@ TEST(SampledAov, NamesAreThoseOfTheCommandLine) {
 
 TEST(SampledAov, NeedARandomIntegratorAndNoDuplicates) {
   const FlatIntegrator flat;
-  EXPECT_THROW((void)drawn({.integrator = &flat, .sampled_aovs = {SampledAov::samples}}), Error);
-  EXPECT_THROW((void)drawn({.sampled_aovs = {SampledAov::samples, SampledAov::samples}}), Error);
+  EXPECT_THROW((void)drawn_samples({.integrator = &flat, .sampled_aovs = {SampledAov::samples}}),
+               Error);
+  EXPECT_THROW((void)drawn_samples({.sampled_aovs = {SampledAov::samples, SampledAov::samples}}),
+               Error);
 }
 
 }  // namespace

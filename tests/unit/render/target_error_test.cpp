@@ -30,19 +30,19 @@ class CoinIntegrator final : public Integrator {
   [[nodiscard]] bool is_random() const override { return true; }
 };
 
-constexpr ImageSize kSize{.width = 48, .height = 20};
+constexpr ImageSize kTargetSize{.width = 48, .height = 20};
 
-Film drawn(RenderOptions options) {
+Film drawn_to_target(RenderOptions options) {
   const CoinIntegrator integrator;
   options.integrator = &integrator;
-  return render(Scene{}, PerspectiveCamera{}, kSize, options);
+  return render(Scene{}, PerspectiveCamera{}, kTargetSize, options);
 }
 
 /// Renders with at most `samples` samples per pixel. Continues from `sums` if it has samples.
 Film drawn_to(double target, SampleSums& sums, std::uint32_t samples, unsigned threads = 1) {
-  return drawn({.threads = threads,
-                .samples = samples,
-                .passes = Passes{.sums = &sums, .target_error = target}});
+  return drawn_to_target({.threads = threads,
+                          .samples = samples,
+                          .passes = Passes{.sums = &sums, .target_error = target}});
 }
 
 // A coin flip that gives 0 or 2 has the standard deviation 1. The mean of n flips has an error of
@@ -86,7 +86,7 @@ TEST(TargetError, StopsConvergedTiles) {
   SampleSums sums;
   RenderCounts counts;
   const CoinIntegrator integrator;
-  (void)render(Scene{}, PerspectiveCamera{}, kSize,
+  (void)render(Scene{}, PerspectiveCamera{}, kTargetSize,
                {.integrator = &integrator,
                 .samples = 65536,
                 .passes = Passes{.sums = &sums, .target_error = 0.04},
@@ -95,7 +95,7 @@ TEST(TargetError, StopsConvergedTiles) {
   std::uint64_t samples = 0;
   for (const PixelSum& pixel : sums.pixels) samples += pixel.count;
   EXPECT_EQ(samples, counts.samples);
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
+  for (std::uint32_t y = 0; y < kTargetSize.height; ++y) {
     EXPECT_EQ(sums.at(0, y).count, 32U);
     EXPECT_EQ(sums.at(8, y).count, 1024U);  // tiles beside the coin's columns
     EXPECT_EQ(sums.at(20, y).count, 1024U);
@@ -118,14 +118,16 @@ TEST(TargetError, ThreadsAndInterruptionsHaveNoEffect) {
   const Film again = drawn_to(0.04, parts, 4096, 2);
   EXPECT_EQ(parts.ranges(), whole.ranges());
   EXPECT_EQ(parts.pixels, whole.pixels);
-  for (std::uint32_t y = 0; y < kSize.height; ++y) {
-    for (std::uint32_t x = 0; x < kSize.width; ++x) ASSERT_EQ(film.row(y)[x], again.row(y)[x]);
+  for (std::uint32_t y = 0; y < kTargetSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kTargetSize.width; ++x)
+      ASSERT_EQ(film.row(y)[x], again.row(y)[x]);
   }
 }
 
 TEST(TargetError, IsNotForShards) {
   EXPECT_THROW(
-      (void)drawn({.samples = 4, .passes = Passes{.part = SampleRange{0, 2}, .target_error = 0.1}}),
+      (void)drawn_to_target(
+          {.samples = 4, .passes = Passes{.part = SampleRange{0, 2}, .target_error = 0.1}}),
       Error);
 }
 

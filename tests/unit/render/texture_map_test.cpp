@@ -8,7 +8,7 @@
 namespace microtrace {
 namespace {
 
-constexpr TextureFootprint kNear{};  // smaller than a pixel
+constexpr TextureFootprint kCloseUp{};  // smaller than a pixel
 
 /// Returns a one-row image with these gray levels from left to right.
 Image strip(std::vector<std::uint8_t> grays) {
@@ -23,7 +23,7 @@ Sampler sampler(Wrap wrap, Filter filter) {
 }
 
 double gray(const Image& image, const Sampler& how, double u,
-            const TextureFootprint& size = kNear) {
+            const TextureFootprint& size = kCloseUp) {
   const DVec4 color = TextureMap(image, how, ColorEncoding::linear).look_up({u, 0.5}, size);
   EXPECT_EQ(color.x, color.y);
   EXPECT_EQ(color.x, color.z);
@@ -85,7 +85,7 @@ TEST(TextureMap, SrgbIsDecodedBeforeItIsFiltered) {
                     .channels = 4,
                     .samples = std::vector<std::uint8_t>{0, 0, 0, 0, 255, 188, 0, 255}};
   const TextureMap map(image, sampler(Wrap::clamp_to_edge, Filter::linear), ColorEncoding::srgb);
-  const DVec4 middle = map.look_up({0.5, 0.5}, kNear);
+  const DVec4 middle = map.look_up({0.5, 0.5}, kCloseUp);
   EXPECT_NEAR(middle.x, 0.5, 1e-7);
   EXPECT_NEAR(middle.y, std::pow((188 / 255.0 + 0.055) / 1.055, 2.4) / 2, 1e-7);
   EXPECT_NEAR(middle.w, 0.5, 1e-7) << "alpha is linear";
@@ -96,7 +96,7 @@ TEST(TextureMap, KeepsSixteenBits) {
                     .height = 1,
                     .channels = 2,
                     .samples = std::vector<std::uint16_t>{257 * 100 + 1, 1}};
-  const DVec4 color = TextureMap(image, Sampler{}, ColorEncoding::linear).look_up({0, 0}, kNear);
+  const DVec4 color = TextureMap(image, Sampler{}, ColorEncoding::linear).look_up({0, 0}, kCloseUp);
   EXPECT_NEAR(color.z, 25701 / 65535.0, 1e-8);
   EXPECT_NEAR(color.w, 1 / 65535.0, 1e-10);
 }

@@ -13,7 +13,7 @@
 namespace microtrace {
 namespace {
 
-constexpr ImageSize kSize{.width = 640, .height = 480};
+constexpr ImageSize kCameraSize{.width = 640, .height = 480};
 
 void expect_near(const Vec3& actual, const DVec3& expected, double tolerance) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(actual[k], expected[k], tolerance) << "component " << k;
@@ -24,7 +24,7 @@ PerspectiveCamera first_camera() {
 }
 
 TEST(PerspectiveCamera, GoldenCornerRays) {
-  const RayGenerator ray(first_camera(), kSize);
+  const RayGenerator ray(first_camera(), kCameraSize);
   expect_near(ray(0.5, 479.5).d, {-0.5543, -0.415508, -0.721183}, 1e-6);
   expect_near(ray(639.5, 479.5).d, {0.5543, -0.415508, -0.721183}, 1e-6);
   expect_near(ray(0.5, 0.5).d, {-0.5543, 0.415508, -0.721183}, 1e-6);
@@ -36,7 +36,7 @@ TEST(PerspectiveCamera, MiddleOfThePictureIsTheViewingDirection) {
   const RayGenerator ray(
       {PerspectiveCamera{.pose = {.position = {-8, 3, 8}, .direction = {1, -0.1, -1}},
                          .vertical_fov = radians_from_degrees(45)}},
-      kSize);
+      kCameraSize);
   expect_near(ray(320, 240).d, glm::normalize(DVec3(1, -0.1, -1)), 1e-7);
 }
 
@@ -46,7 +46,7 @@ TEST(PerspectiveCamera, FractionalCoordinatesFollowTheDerivation) {
   const double tangent = 1 / std::numbers::sqrt3;
   const DVec3 expected = glm::normalize(
       DVec3((2 * 128.5 / 640 - 1) * (640.0 / 480) * tangent, (1 - 2 * 5.5 / 480) * tangent, -1));
-  expect_near(RayGenerator(first_camera(), kSize)(128.5, 5.5).d, expected, 1e-7);
+  expect_near(RayGenerator(first_camera(), kCameraSize)(128.5, 5.5).d, expected, 1e-7);
 }
 
 TEST(PerspectiveCamera, FocusAndLengthsHaveNoEffect) {
@@ -54,7 +54,7 @@ TEST(PerspectiveCamera, FocusAndLengthsHaveNoEffect) {
   other.focus = 7.3;
   other.pose.direction *= 8.0;
   other.pose.up = DVec3(0, 4, 2);
-  const RayGenerator a(first_camera(), kSize), b(other, kSize);
+  const RayGenerator a(first_camera(), kCameraSize), b(other, kCameraSize);
   for (double x : {0.5, 17.25, 639.5}) {
     const Vec3 d = a(x, 100).d, e = b(x, 100).d;
     expect_near(d, DVec3(e), 1e-7);
@@ -64,7 +64,7 @@ TEST(PerspectiveCamera, FocusAndLengthsHaveNoEffect) {
 TEST(PerspectiveCamera, DirectionsHaveUnitLength) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> x(0, 640), y(0, 480);
-  const RayGenerator ray(first_camera(), kSize);
+  const RayGenerator ray(first_camera(), kCameraSize);
   for (int i = 0; i < 1000; ++i)
     EXPECT_NEAR(glm::length(DVec3(ray(x(random), y(random)).d)), 1, 1e-7);
 }
@@ -90,16 +90,16 @@ TEST(PerspectiveCamera, WindowWithAspectRatioIsFitted) {
 TEST(PerspectiveCamera, DepthRangeIsMeasuredAlongTheViewingDirection) {
   PerspectiveCamera camera = first_camera();
   camera.depth = {.near = 2, .far = 5};
-  const Ray ray = RayGenerator(camera, kSize)(0.5, 0.5);
+  const Ray ray = RayGenerator(camera, kCameraSize)(0.5, 0.5);
   EXPECT_NEAR(ray.t_min * -ray.d.z, 2, 1e-6);
   EXPECT_NEAR(ray.t_max * -ray.d.z, 5, 1e-6);
-  EXPECT_EQ(RayGenerator(first_camera(), kSize)(0.5, 0.5).t_min,
+  EXPECT_EQ(RayGenerator(first_camera(), kCameraSize)(0.5, 0.5).t_min,
             std::numeric_limits<float>::denorm_min());
 }
 
 TEST(OrthographicCamera, ParallelRaysAPixelApart) {
   const OrthographicCamera camera{.pose = {.position = {1, 2, 3}}, .height = 48};
-  const RayGenerator ray(camera, kSize);
+  const RayGenerator ray(camera, kCameraSize);
   EXPECT_EQ(ray(320, 240).o, Vec3(1, 2, 3));
   expect_near(ray(0, 0).o, {1 - 32, 2 + 24, 3}, 1e-5);
   expect_near(ray(321, 240).o, {1.1, 2, 3}, 1e-6);
@@ -138,7 +138,7 @@ DVec3 in_opencv(const Vec3& d) {
 
 TEST(CalibratedCamera, GoldenRaysWithoutDistortion) {
   // The direction through (x, y) is ((x - 0.5 - cx) / fx, (y - 0.5 - cy) / fy, 1).
-  const RayGenerator ray(CalibratedCamera{.fx = 500, .fy = 400, .cx = 300, .cy = 200}, kSize);
+  const RayGenerator ray(CalibratedCamera{.fx = 500, .fy = 400, .cx = 300, .cy = 200}, kCameraSize);
   expect_near(ray(300.5, 200.5).d, {0, 0, -1}, 1e-7);
   expect_near(ray(800.5, 200.5).d, glm::normalize(DVec3(1, 0, -1)), 1e-7);
   expect_near(ray(50.5, 300.5).d, glm::normalize(DVec3(-0.5, -0.25, -1)), 1e-7);
@@ -150,19 +150,19 @@ TEST(CalibratedCamera, GoldenRaysOfLenses) {
   const double factor = 1.01171875;
   CalibratedCamera camera{
       .fx = 400, .fy = 400, .distortion = RationalDistortion{.k1 = 0.1, .k2 = -0.2}};
-  RayGenerator ray(camera, kSize);
+  RayGenerator ray(camera, kCameraSize);
   expect_near(ray(320 + 200 * factor, 240 + 100 * factor).d, glm::normalize(DVec3(0.5, -0.25, -1)),
               1e-7);
   // Tangential distortion: x' = 0.5 + 2 p1 x y + p2 (r^2 + 2 x^2),
   // y' = 0.25 + p1 (r^2 + 2 y^2) + 2 p2 x y.
   camera.distortion = RationalDistortion{.p1 = 0.08, .p2 = 0.16};
-  ray = RayGenerator(camera, kSize);
+  ray = RayGenerator(camera, kCameraSize);
   const double x = 0.5 + 0.08 * 0.25 + 0.16 * 0.8125, y = 0.25 + 0.08 * 0.4375 + 0.16 * 0.25;
   expect_near(ray(320 + 400 * x, 240 + 400 * y).d, glm::normalize(DVec3(0.5, -0.25, -1)), 1e-7);
   // A fisheye lens sees a direction at 120 degrees, which points backward.
   const double a = std::numbers::pi * 2 / 3;
   camera.distortion = FisheyeDistortion{.k1 = 0.01};
-  ray = RayGenerator(camera, kSize);
+  ray = RayGenerator(camera, kCameraSize);
   expect_near(ray(320, 240 - 400 * (a + 0.01 * a * a * a)).d, {0, std::sqrt(0.75), 0.5}, 2e-7);
 }
 
@@ -171,8 +171,8 @@ TEST(CalibratedCamera, WithoutDistortionIsAPerspectiveCamera) {
   const PerspectiveCamera perspective{
       .pose = pose, .vertical_fov = 1, .depth = {.near = 0.5, .far = 9}};
   const double f = 240 / tan_radians(0.5);
-  const RayGenerator a(perspective, kSize),
-      b(CalibratedCamera{.pose = pose, .fx = f, .fy = f, .depth = perspective.depth}, kSize);
+  const RayGenerator a(perspective, kCameraSize),
+      b(CalibratedCamera{.pose = pose, .fx = f, .fy = f, .depth = perspective.depth}, kCameraSize);
   for (double y = -3; y < 490; y += 17.3) {
     for (double x = -3; x < 650; x += 13.7) {
       const Ray r = a(x, y), s = b(x, y);
@@ -211,7 +211,7 @@ TEST(CalibratedCamera, ProjectsRaysToTheirPixels) {
     const bool fisheye = std::holds_alternative<FisheyeDistortion>(distortion);
     SCOPED_TRACE(testing::PrintToString(distortion.index()));
     const RayGenerator rays(CalibratedCamera{.fx = 300, .fy = 250, .distortion = distortion},
-                            kSize);
+                            kCameraSize);
     int seen = 0;
     for (int i = 0; i < 2000; ++i) {
       // If a direction projects to a pixel position, the ray through that position must have this
@@ -251,8 +251,8 @@ TEST(CalibratedCamera, ProjectsRaysToTheirPixels) {
 TEST(CalibratedCamera, MirroredLensesHaveMirroredRays) {
   RationalDistortion mirrored = kStrong;
   mirrored.p2 = -mirrored.p2;
-  const RayGenerator a(CalibratedCamera{.cx = 300.25, .distortion = kStrong}, kSize),
-      b(CalibratedCamera{.cx = 639 - 300.25, .distortion = mirrored}, kSize);
+  const RayGenerator a(CalibratedCamera{.cx = 300.25, .distortion = kStrong}, kCameraSize),
+      b(CalibratedCamera{.cx = 639 - 300.25, .distortion = mirrored}, kCameraSize);
   for (double y = 0.5; y < 480; y += 13) {
     for (double x = 0.5; x < 640; x += 13) {
       const Vec3 d = a(x, y).d, e = b(640 - x, y).d;
@@ -265,7 +265,7 @@ TEST(CalibratedCamera, OtherSizesScaleThePicture) {
   for (const Distortion& distortion : {Distortion(kStrong), Distortion(kWide), Distortion()}) {
     const CalibratedCamera camera{
         .fx = 310, .fy = 290, .cx = 311, .cy = 252, .distortion = distortion};
-    const RayGenerator whole(camera, kSize), half(camera, {.width = 320, .height = 240}),
+    const RayGenerator whole(camera, kCameraSize), half(camera, {.width = 320, .height = 240}),
         squeezed(camera, {.width = 160, .height = 960});
     for (double y = 0; y <= 480; y += 48) {
       for (double x = 0; x <= 640; x += 64) {
@@ -284,7 +284,8 @@ TEST(CalibratedCamera, OtherSizesScaleThePicture) {
 TEST(CalibratedCamera, HasNoRaysWhereTheLensFolds) {
   // r - 0.3 r^3 has its maximum at r = sqrt(1 / 0.9). The distorted radius there is 2 / 3 of r.
   const double most = std::sqrt(1 / 0.9) * 2 / 3;
-  const RayGenerator rays(CalibratedCamera{.distortion = RationalDistortion{.k1 = -0.3}}, kSize);
+  const RayGenerator rays(CalibratedCamera{.distortion = RationalDistortion{.k1 = -0.3}},
+                          kCameraSize);
   EXPECT_GT(rays(320 + 640 * (most - 1e-9), 240).t_max, 0);
   EXPECT_EQ(rays(320 + 640 * (most + 1e-9), 240).t_max, -1);
   EXPECT_EQ(rays(320, 240 - 640 * 1.1 * most).t_max, -1);
@@ -292,13 +293,14 @@ TEST(CalibratedCamera, HasNoRaysWhereTheLensFolds) {
   EXPECT_TRUE(rays.project({1.05, 0, -1}));
   EXPECT_FALSE(rays.project({0.1, 0.1, 1}));
   // a - 0.2 a^3 has its maximum at a = sqrt(1 / 0.6), which is 74 degrees.
-  const RayGenerator fisheye(CalibratedCamera{.distortion = FisheyeDistortion{.k1 = -0.2}}, kSize);
+  const RayGenerator fisheye(CalibratedCamera{.distortion = FisheyeDistortion{.k1 = -0.2}},
+                             kCameraSize);
   const double farthest = std::sqrt(1 / 0.6) * 2 / 3;
   EXPECT_GT(fisheye(320 + 640 * (farthest - 1e-9), 240).t_max, 0);
   EXPECT_EQ(fisheye(320 + 640 * (farthest + 1e-9), 240).t_max, -1);
   // The equidistant fisheye shows all directions, and no rays exist beyond its image circle.
   const RayGenerator full(CalibratedCamera{.fx = 70, .fy = 70, .distortion = FisheyeDistortion{}},
-                          kSize);
+                          kCameraSize);
   expect_near(full(320 + 70 * std::numbers::pi * (1 - 1e-9), 240).d, {0, 0, 1}, 1e-7);
   EXPECT_EQ(full(320 + 70 * 3.1416, 240).t_max, -1);
   EXPECT_EQ(full(0, 0).t_max, -1);
@@ -307,7 +309,7 @@ TEST(CalibratedCamera, HasNoRaysWhereTheLensFolds) {
 TEST(CalibratedCamera, DepthsOfFisheyeCamerasAreNegativeBehind) {
   const CalibratedCamera camera{
       .fx = 100, .fy = 100, .distortion = FisheyeDistortion{}, .depth = {.near = 2, .far = 5}};
-  const RayGenerator rays(camera, kSize);
+  const RayGenerator rays(camera, kCameraSize);
   EXPECT_NEAR(rays.depth({1, 0, 2}), -2, 1e-15);
   const Ray ray = rays(320 + 50 * std::numbers::pi, 240);  // to the right
   expect_near(ray.d, {1, 0, 0}, 1e-7);
@@ -335,7 +337,7 @@ TEST(RayGenerator, ProjectsRaysToTheirPixels) {
                             EnvironmentCamera{.pose = pose},
                             CalibratedCamera{.pose = pose, .fx = 700, .fy = 650, .cx = 17}};
   for (const Camera& camera : cameras) {
-    const RayGenerator rays(camera, kSize);
+    const RayGenerator rays(camera, kCameraSize);
     for (double y = 0.5; y < 480; y += 13) {
       for (double x = 0.5; x < 640; x += 13) {
         const Ray ray = rays(x, y);
@@ -345,12 +347,12 @@ TEST(RayGenerator, ProjectsRaysToTheirPixels) {
       }
     }
   }
-  EXPECT_FALSE(RayGenerator(cameras[0], kSize).project(pose.position - pose.direction));
-  EXPECT_FALSE(RayGenerator(cameras[2], kSize).project(pose.position));
-  const auto above = RayGenerator(EnvironmentCamera{}, kSize).project({0, 3, 0});
+  EXPECT_FALSE(RayGenerator(cameras[0], kCameraSize).project(pose.position - pose.direction));
+  EXPECT_FALSE(RayGenerator(cameras[2], kCameraSize).project(pose.position));
+  const auto above = RayGenerator(EnvironmentCamera{}, kCameraSize).project({0, 3, 0});
   ASSERT_TRUE(above);
   EXPECT_EQ(above->y, 0);
-  const auto behind = RayGenerator(EnvironmentCamera{}, kSize).project({0, 0, 3});
+  const auto behind = RayGenerator(EnvironmentCamera{}, kCameraSize).project({0, 0, 3});
   ASSERT_TRUE(behind);
   EXPECT_EQ(behind->x, 640);
   EXPECT_EQ(behind->y, 240);
@@ -366,7 +368,7 @@ TEST(RayGenerator, DifferentialsAreTheStepsToNeighboringPixels) {
       CalibratedCamera{.pose = pose, .distortion = kStrong},
       CalibratedCamera{.pose = pose, .fx = 130, .fy = 140, .distortion = kWide}};
   for (const Camera& camera : cameras) {
-    const RayGenerator ray(camera, kSize);
+    const RayGenerator ray(camera, kCameraSize);
     const Ray here = ray(100, 400);
     const RayDifferential step = ray.differential(here);
     // Estimates the differentials from rays ten pixels away on each side. The relative tolerance

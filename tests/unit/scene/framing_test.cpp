@@ -54,14 +54,14 @@ void expect_tight(const Extent& e, double tolerance = 1e-6) {
       << e.left << " " << e.right << " " << e.bottom << " " << e.top;
 }
 
-Scene scene_of(const std::vector<Shape>& shapes) {
+Scene framed_scene(const std::vector<Shape>& shapes) {
   Scene scene;
   for (const Shape& shape : shapes) scene.objects.push_back({.name = "", .shape = shape});
   return scene;
 }
 
 Scene cloud(const std::vector<Vec3>& points) {
-  return scene_of({Mesh{.positions = points, .triangles = {}}});
+  return framed_scene({Mesh{.positions = points, .triangles = {}}});
 }
 
 std::vector<DVec3> widened(const std::vector<Vec3>& points) {
@@ -183,7 +183,7 @@ TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
   }
   const ImageSize size{640, 480};
   for (const Shape& shape : {Shape(sphere), Shape(quadric), Shape(negative)}) {
-    const PerspectiveCamera camera = frame(scene_of({shape}), View{}, size);
+    const PerspectiveCamera camera = frame(framed_scene({shape}), View{}, size);
     expect_tight(seen(ball, camera, size), 1e-3);
     // The ball fills the height: the sine of half the subtended angle is radius / distance.
     const double half = std::atan(kEdge * std::tan(std::numbers::pi / 8));
@@ -200,7 +200,7 @@ TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
     const double value = glm::dot(middle, matrix * middle) - tilted.j;
     skin.push_back(middle + d * std::sqrt(value / glm::dot(d, matrix * d)));
   }
-  expect_tight(seen(skin, frame(scene_of({tilted}), View{}, size), size), 2e-3);
+  expect_tight(seen(skin, frame(framed_scene({tilted}), View{}, size), size), 2e-3);
 
   const Disc disc{.center = center, .normal = {1, 2, -2}, .radius = 3};
   const DVec3 u = glm::normalize(DVec3(2, -1, 0));
@@ -209,7 +209,7 @@ TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
   for (int i = 0; i < 10000; ++i) {
     rim.push_back(center + 3 * std::cos(i * 1e-3) * u + 3 * std::sin(i * 1e-3) * v);
   }
-  expect_tight(seen(rim, frame(scene_of({disc}), View{}, size), size), 1e-5);
+  expect_tight(seen(rim, frame(framed_scene({disc}), View{}, size), size), 1e-5);
 }
 
 TEST(Framing, NamedViewsLookFromTheirSides) {

@@ -18,8 +18,8 @@
 namespace microtrace {
 namespace {
 
-constexpr ImageSize kSize{.width = 90, .height = 70};
-constexpr PixelRect kWindow{.x0 = 0, .y0 = 0, .x1 = kSize.width, .y1 = kSize.height};
+constexpr ImageSize kPartSize{.width = 90, .height = 70};
+constexpr PixelRect kWindow{.x0 = 0, .y0 = 0, .x1 = kPartSize.width, .y1 = kPartSize.height};
 
 Scene sphere(const Vec3& center, float radius) {
   Mesh mesh = generated::displaced_sphere(400);
@@ -59,11 +59,11 @@ TEST(OccupiedPart, ContainsAllHits) {
         .vertical_fov = round % 7 == 0   ? 3
                         : round % 5 == 0 ? 1e-4
                                          : 1 + 0.9 * number()};
-    const RayGenerator rays(camera, kSize);
+    const RayGenerator rays(camera, kPartSize);
     const PixelRect part = part_of(camera, rays, bvh, kWindow);
     if (part != kWindow) ++smaller;
-    for (std::uint32_t y = 0; y < kSize.height; ++y) {
-      for (std::uint32_t x = 0; x < kSize.width; ++x) {
+    for (std::uint32_t y = 0; y < kPartSize.height; ++y) {
+      for (std::uint32_t x = 0; x < kPartSize.width; ++x) {
         if (!bvh.intersect(rays(x + 0.5, y + 0.5))) continue;
         ++hits;
         ASSERT_TRUE(is_inside(part, x, y)) << round << ": " << x << ", " << y;
@@ -78,11 +78,11 @@ TEST(OccupiedPart, FitsTightly) {
   const Scene scene = sphere(Vec3(0), 1);
   const Bvh bvh(scene);
   const PerspectiveCamera camera{.pose = {.position = {0, 0, 50}, .direction = {0, 0, -1}}};
-  const RayGenerator rays(camera, kSize);
+  const RayGenerator rays(camera, kPartSize);
   const PixelRect part = part_of(camera, rays, bvh, kWindow);
   EXPECT_LT(part.size().width, 10U);
   EXPECT_LT(part.size().height, 10U);
-  EXPECT_TRUE(is_inside(part, kSize.width / 2, kSize.height / 2));
+  EXPECT_TRUE(is_inside(part, kPartSize.width / 2, kPartSize.height / 2));
   const PixelRect corner{.x0 = 0, .y0 = 0, .x1 = 16, .y1 = 16};
   EXPECT_FALSE(overlap(corner, part_of(camera, rays, bvh, corner)));
 }
@@ -91,7 +91,7 @@ TEST(OccupiedPart, IsTheWindowForOtherCameras) {
   const Scene scene = sphere(Vec3(0), 1);
   const Pose outside{.position = {0, 0, 50}, .direction = {0, 0, -1}};
   const auto part = [&](const Camera& camera) {
-    return part_of(camera, RayGenerator(camera, kSize), Bvh(scene), kWindow);
+    return part_of(camera, RayGenerator(camera, kPartSize), Bvh(scene), kWindow);
   };
   EXPECT_NE(part(PerspectiveCamera{.pose = outside}), kWindow);
   EXPECT_EQ(part(PerspectiveCamera{.pose = {.position = {0, 0, 0.5}}}), kWindow);

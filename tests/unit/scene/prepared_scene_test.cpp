@@ -27,7 +27,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr ImageSize kSize{.width = 24, .height = 18};
+constexpr ImageSize kPreparedSize{.width = 24, .height = 18};
 
 std::shared_ptr<const Image> checkers() {
   auto image = std::make_shared<Image>();
@@ -62,7 +62,7 @@ Scene furnished(const Vec3& shift = Vec3(0)) {
 std::vector<Camera> views_of(const Scene& scene) {
   std::vector<Camera> views;
   for (const double azimuth : {0.0, 75.0, 200.0})
-    views.emplace_back(frame(scene, {.azimuth = azimuth}, kSize));
+    views.emplace_back(frame(scene, {.azimuth = azimuth}, kPreparedSize));
   return views;
 }
 
@@ -90,9 +90,9 @@ TEST(PreparedScene, DrawsTheSamePictures) {
     const Scene scene = furnished(shift);
     const PreparedScene prepared(scene);
     for (const Camera& camera : views_of(scene)) {
-      expect_same(render(prepared, camera, kSize), render(scene, camera, kSize));
-      expect_same(render(prepared, camera, kSize, lit(path)),
-                  render(scene, camera, kSize, lit(path)));
+      expect_same(render(prepared, camera, kPreparedSize), render(scene, camera, kPreparedSize));
+      expect_same(render(prepared, camera, kPreparedSize, lit(path)),
+                  render(scene, camera, kPreparedSize, lit(path)));
     }
   }
 }
@@ -104,7 +104,7 @@ TEST(PreparedScene, PreparesOnce) {
   {
     const PreparedScene prepared(scene, {.memory = &budget});
     const Camera camera = views_of(scene)[0];
-    (void)render(prepared, camera, kSize, lit(path));
+    (void)render(prepared, camera, kPreparedSize, lit(path));
     const auto& content = prepared.content();
     const Shading* shading = &content.shading();
     const Emitters* emitters = &content.emitters();
@@ -112,7 +112,7 @@ TEST(PreparedScene, PreparesOnce) {
     ASSERT_TRUE(moved);
     const std::uint64_t after_one = budget.peak();
     EXPECT_GT(after_one, 0U);
-    for (int i = 0; i < 3; ++i) (void)render(prepared, camera, kSize, lit(path));
+    for (int i = 0; i < 3; ++i) (void)render(prepared, camera, kPreparedSize, lit(path));
     EXPECT_EQ(budget.peak(), after_one);
     EXPECT_EQ(shading, &content.shading());
     EXPECT_EQ(emitters, &content.emitters());
@@ -130,13 +130,14 @@ TEST(PreparedScene, SharesTablesWithTheNextFrame) {
   const Camera camera = views_of(scene)[1];
   const PathIntegrator path({.max_depth = 3});
   const PreparedScene first(scene);
-  (void)render(first, camera, kSize, lit(path));
+  (void)render(first, camera, kPreparedSize, lit(path));
   const auto tables = first.content().tables()->of(*scene.environment);
 
   std::get<Sphere>(scene.objects[1].shape).center.y = 2;  // the next pose of the scene
   const PreparedScene second(scene, {.tables = first.tables()});
   EXPECT_EQ(second.content().tables()->of(*scene.environment), tables);
-  expect_same(render(second, camera, kSize, lit(path)), render(scene, camera, kSize, lit(path)));
+  expect_same(render(second, camera, kPreparedSize, lit(path)),
+              render(scene, camera, kPreparedSize, lit(path)));
 }
 
 TEST(PreparedScene, DrawsPosesLikeNewScenes) {
@@ -149,9 +150,9 @@ TEST(PreparedScene, DrawsPosesLikeNewScenes) {
         scene,
         {.threads = pose % 2 == 0 ? 1U : 7U, .tables = std::move(tables), .max_cost_growth = 1e9});
     tables = prepared.tables();
-    expect_same(render(prepared, camera, kSize), render(scene, camera, kSize));
-    expect_same(render(prepared, camera, kSize, lit(path)),
-                render(scene, camera, kSize, lit(path)));
+    expect_same(render(prepared, camera, kPreparedSize), render(scene, camera, kPreparedSize));
+    expect_same(render(prepared, camera, kPreparedSize, lit(path)),
+                render(scene, camera, kPreparedSize, lit(path)));
     for (Vec3& p : std::get<Mesh>(scene.objects[0].shape).positions.edit())
       p.y += 0.1F * p.x + 0.05F * p.z;
   }
@@ -182,7 +183,8 @@ TEST(PreparedScene, TakesAnotherEnvironment) {
     RenderOptions options = lit(path);
     options.environment = environment;
     scene.environment = environment;
-    expect_same(render(prepared, camera, kSize, options), render(scene, camera, kSize, lit(path)));
+    expect_same(render(prepared, camera, kPreparedSize, options),
+                render(scene, camera, kPreparedSize, lit(path)));
   }
 }
 
@@ -191,15 +193,17 @@ TEST(PreparedScene, MayBeSharedByThreads) {
   const PathIntegrator path({.max_depth = 3});
   const std::vector<Camera> views = views_of(scene);
   std::vector<Film> expected;
-  for (const Camera& camera : views) expected.push_back(render(scene, camera, kSize, lit(path)));
+  for (const Camera& camera : views)
+    expected.push_back(render(scene, camera, kPreparedSize, lit(path)));
   for (int round = 0; round < 5; ++round) {
     const PreparedScene prepared(scene);
     std::vector<std::optional<Film>> films(2 * views.size());
     {
       std::vector<std::jthread> threads;
       for (std::size_t i = 0; i < films.size(); ++i) {
-        threads.emplace_back(
-            [&, i] { films[i] = render(prepared, views[i % views.size()], kSize, lit(path)); });
+        threads.emplace_back([&, i] {
+          films[i] = render(prepared, views[i % views.size()], kPreparedSize, lit(path));
+        });
       }
     }
     for (std::size_t i = 0; i < films.size(); ++i)
@@ -242,13 +246,13 @@ TEST(PreparedScene, QueriesAreInWorldSpace) {
 TEST(PreparedScene, OwnsItsScene) {
   std::optional<Scene> scene = furnished();
   const Camera camera = views_of(*scene)[0];
-  const Film expected = render(*scene, camera, kSize);
+  const Film expected = render(*scene, camera, kPreparedSize);
   const PreparedScene copy = [&] {
     PreparedScene first(*std::move(scene));
     scene.reset();
     return PreparedScene(first);
   }();
-  expect_same(render(copy, camera, kSize), expected);
+  expect_same(render(copy, camera, kPreparedSize), expected);
   // Types that keep a reference to the scene must not accept temporaries.
   static_assert(!std::is_constructible_v<Bvh, Scene>);
   static_assert(!std::is_constructible_v<Primitives, Scene>);
@@ -269,7 +273,7 @@ void expect_refused(const Scene& scene, const char* pointer) {
   };
   expect([&] { validate(scene); });
   expect([&] { (void)PreparedScene(scene); });
-  expect([&] { (void)render(scene, PerspectiveCamera{}, kSize); });
+  expect([&] { (void)render(scene, PerspectiveCamera{}, kPreparedSize); });
 }
 
 TEST(Validate, RefusesIndicesOutOfRange) {
@@ -314,7 +318,7 @@ TEST(Validate, RefusesNumbersThatAreNotFinite) {
   std::get<Mesh>(scene.objects[0].shape).positions.edit()[3].y = std::nanf("");
   EXPECT_THROW(validate(scene), Error);
   // Rendering accepts the triangles that use this vertex, because it treats them as empty.
-  EXPECT_NO_THROW((void)render(scene, views_of(scene)[0], kSize));
+  EXPECT_NO_THROW((void)render(scene, views_of(scene)[0], kPreparedSize));
   scene = furnished();
   scene.cameras.push_back({.name = "", .camera = PerspectiveCamera{.vertical_fov = 4}});
   EXPECT_THROW(validate(scene), Error);

@@ -36,7 +36,7 @@ Mesh cube(const Vec3& lo, float edge) {
   return mesh;
 }
 
-Scene scene_of(std::vector<Shape> shapes) {
+Scene queried_scene(std::vector<Shape> shapes) {
   Scene scene;
   for (Shape& shape : shapes) scene.objects.push_back({.name = "", .shape = std::move(shape)});
   return scene;
@@ -61,7 +61,7 @@ double signed_distance(const Solid& solid, const Vec3& p) {
 }
 
 TEST(Queries, ReturnRaggedHits) {
-  const PreparedScene scene(scene_of({Sphere{}, cube(Vec3(-2), 4), cube(Vec3(-2), 4)}));
+  const PreparedScene scene(queried_scene({Sphere{}, cube(Vec3(-2), 4), cube(Vec3(-2), 4)}));
   const std::vector<Ray> rays{{.o = {0.25F, 0.5F, 5}}, {.o = {9, 9, 9}}, {.o = {0.25F, 0.5F, 0}}};
   const RayHits all = intersect_all(scene, rays);
   EXPECT_THAT(all.offsets, ElementsAre(0, 5, 5, 8));
@@ -76,7 +76,7 @@ TEST(Queries, ReturnRaggedHits) {
 }
 
 TEST(Queries, CountEachTriangleAtAnEdge) {
-  const PreparedScene scene(scene_of({cube(Vec3(0), 1)}));
+  const PreparedScene scene(queried_scene({cube(Vec3(0), 1)}));
   const std::vector<Ray> rays{{.o = {0.5F, 0.5F, 2}},     // through the diagonals of two faces
                               {.o = {1, 0.25F, 2}},       // within a face, through two edges
                               {.o = {1, 1, 2}},           // along an edge
@@ -87,17 +87,17 @@ TEST(Queries, CountEachTriangleAtAnEdge) {
 }
 
 TEST(Solid, IsClosedIfVerticesAreEqual) {
-  EXPECT_TRUE(Solid{PreparedScene(scene_of({cube(Vec3(1, 2, 3), 0.1F)}))}.is_closed());
+  EXPECT_TRUE(Solid{PreparedScene(queried_scene({cube(Vec3(1, 2, 3), 0.1F)}))}.is_closed());
   EXPECT_TRUE(Solid{PreparedScene(Scene{})}.is_closed());
   // Two cubes that touch in a common face. Their vertices have both 0 and -0.
-  EXPECT_TRUE((
-      Solid{PreparedScene(scene_of({cube(Vec3(0), 1), cube({-1, -0.0F, -0.0F}, 1)}))}.is_closed()));
+  EXPECT_TRUE((Solid{PreparedScene(queried_scene({cube(Vec3(0), 1), cube({-1, -0.0F, -0.0F}, 1)}))}
+                   .is_closed()));
 }
 
 TEST(Solid, TellsOpenEdges) {
   Mesh mesh = cube(Vec3(0), 2);
   mesh.triangles.edit().pop_back();
-  Scene scene = scene_of({Sphere{}, mesh});
+  Scene scene = queried_scene({Sphere{}, mesh});
   scene.origin = {100, 0, 0};
   const Solid solid{PreparedScene(std::move(scene))};
   EXPECT_FALSE(solid.is_closed());
@@ -118,7 +118,7 @@ TEST(Solid, TellsOpenEdges) {
 TEST(Solid, IgnoresTrianglesThatAreNotFinite) {
   Mesh mesh = cube(Vec3(0), 2);
   mesh.positions.edit()[0].x = std::numeric_limits<float>::infinity();
-  const Solid solid{PreparedScene(scene_of({mesh}))};
+  const Solid solid{PreparedScene(queried_scene({mesh}))};
   EXPECT_EQ(solid.open_edges().size(), 3U);
   EXPECT_TRUE(nearest(solid, Vec3(1)).has_value());
 }
@@ -126,7 +126,7 @@ TEST(Solid, IgnoresTrianglesThatAreNotFinite) {
 TEST(Solid, LocatesByParity) {
   // Nested cubes: a solid with a cavity that contains another cube.
   const Solid solid{PreparedScene(
-      scene_of({cube(Vec3(0), 9), cube(Vec3(1), 7), cube(Vec3(2), 5), Sphere{Vec3(20), 3}}))};
+      queried_scene({cube(Vec3(0), 9), cube(Vec3(1), 7), cube(Vec3(2), 5), Sphere{Vec3(20), 3}}))};
   EXPECT_EQ(locate(solid, Vec3(-1)), Location::outside);
   EXPECT_EQ(locate(solid, Vec3(0)), Location::boundary);
   EXPECT_EQ(locate(solid, Vec3(0.5F)), Location::inside);
@@ -143,7 +143,7 @@ TEST(Solid, LocatesByParity) {
 
 TEST(Solid, CanBeOneObject) {
   const PreparedScene scene(
-      scene_of({cube(Vec3(0), 4), Plane{}, cube(Vec3(0), 4), cube(Vec3(2), 4)}));
+      queried_scene({cube(Vec3(0), 4), Plane{}, cube(Vec3(0), 4), cube(Vec3(2), 4)}));
   const Solid all(scene), second(scene, 2), third(scene, 3), plane(scene, 1);
   // The two equal cubes cancel each other.
   EXPECT_EQ(locate(all, Vec3(1)), Location::outside);
@@ -163,7 +163,7 @@ TEST(Solid, CanBeOneObject) {
 }
 
 TEST(Solid, FindsNearestPoints) {
-  Scene scene = scene_of({Sphere{}, Triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}});
+  Scene scene = queried_scene({Sphere{}, Triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}});
   scene.origin = {1, 2, 3};
   const Solid solid{PreparedScene(std::move(scene))};
   const auto found = nearest(solid, {2, 3, 8});
@@ -178,7 +178,7 @@ TEST(Solid, FindsTheLowestOfEquallyNearTriangles) {
   // The query points are near a corner of five triangles, an edge, and a face that occurs three
   // times.
   const Solid solid{
-      PreparedScene(scene_of({cube(Vec3(0), 1), cube(Vec3(0), 1), cube(Vec3(0), 1)}))};
+      PreparedScene(queried_scene({cube(Vec3(0), 1), cube(Vec3(0), 1), cube(Vec3(0), 1)}))};
   EXPECT_EQ(nearest(solid, {-1, -1, -1})->id, 0U);
   EXPECT_EQ(nearest(solid, {2, 2, 2})->id, 3U);
   EXPECT_EQ(nearest(solid, {0.25F, 0.25F, 2})->id, 10U);
@@ -188,7 +188,7 @@ TEST(Solid, FindsTheLowestOfEquallyNearTriangles) {
 // ---- Threads and cancellation
 
 struct ManyPoints {
-  Solid solid{PreparedScene(scene_of({cube(Vec3(0), 1), cube(Vec3(0.25F), 1)}))};
+  Solid solid{PreparedScene(queried_scene({cube(Vec3(0), 1), cube(Vec3(0.25F), 1)}))};
   std::vector<Vec3> points;
   std::vector<Location> locations;
 
@@ -265,7 +265,7 @@ TEST(Queries, CanBeCanceledWithinOneRay) {
       mesh.positions.push_back(p);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  const PreparedScene scene(scene_of({std::move(mesh)}));
+  const PreparedScene scene(queried_scene({std::move(mesh)}));
   const Ray ray{.o = Vec3(0), .d = {0.01F, 0.02F, 1}};
   int calls = 0;
   const auto f = [&] {

@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 using Pixel = std::pair<int, int>;
 using Segment = std::array<std::uint32_t, 2>;
 
-constexpr ImageSize kSize{.width = 60, .height = 40};
+constexpr ImageSize kSegmentSize{.width = 60, .height = 40};
 
 /// A camera for which a world unit is a pixel and (0, 0) is the picture's lower left corner.
 const Camera kPixels = OrthographicCamera{.pose = {.position = {30, 20, 100}}, .height = 40};
@@ -37,7 +37,8 @@ Scene scene_of(std::vector<Vec3> positions, std::vector<Segment> segments) {
 }
 
 /// Returns the covered pixels, as column from the left and row from the bottom.
-std::vector<Pixel> drawn(const Scene& scene, const Camera& camera, ImageSize size = kSize) {
+std::vector<Pixel> drawn_segments(const Scene& scene, const Camera& camera,
+                                  ImageSize size = kSegmentSize) {
   Film film = render(scene, camera, size, {.threads = 1});
   std::vector<Pixel> result;
   for (std::uint32_t y = 0; y < size.height; ++y) {
@@ -49,7 +50,7 @@ std::vector<Pixel> drawn(const Scene& scene, const Camera& camera, ImageSize siz
 }
 
 std::vector<Pixel> line(const Vec3& a, const Vec3& b, const Camera& camera = kPixels) {
-  return drawn(scene_of({a, b}, {{0, 1}}), camera);
+  return drawn_segments(scene_of({a, b}, {{0, 1}}), camera);
 }
 
 /// Returns true if the pixels are 8-connected.
@@ -78,7 +79,7 @@ TEST(Segments, PointsCoverTheirPixel) {
       const Scene scene = scene_of({Vec3(x, y, 0)}, {{0, 0}});
       // A point on the border between two pixels covers the right or the lower one.
       const Pixel expected(7, y == 9 ? 8 : 9);
-      EXPECT_THAT(drawn(scene, kPixels), ElementsAre(expected)) << x << " " << y;
+      EXPECT_THAT(drawn_segments(scene, kPixels), ElementsAre(expected)) << x << " " << y;
     }
   }
 }
@@ -158,15 +159,15 @@ TEST(Segments, EnvironmentCamerasSeeAllDirections) {
   // The line spans a quarter of the horizon, from straight ahead to the right and slightly above
   // the camera.
   const std::vector<Pixel> quarter =
-      drawn(scene_of({Vec3(0, 0.05F, -1), Vec3(1, 0.05F, 0)}, {{0, 1}}), kEnvironment,
-            {.width = 60, .height = 30});
+      drawn_segments(scene_of({Vec3(0, 0.05F, -1), Vec3(1, 0.05F, 0)}, {{0, 1}}), kEnvironment,
+                     {.width = 60, .height = 30});
   EXPECT_TRUE(is_connected(quarter));
   EXPECT_NEAR(static_cast<double>(quarter.size()), 16, 2);
 }
 
 TEST(Segments, DistortedLinesAreConnectedAndVisible) {
   CalibratedCamera camera{.pose = {.position = {0, 0, 5}},
-                          .image = kSize,
+                          .image = kSegmentSize,
                           .fx = 36,
                           .fy = 38,
                           .cx = 27,
@@ -185,10 +186,10 @@ TEST(Segments, DistortedLinesAreConnectedAndVisible) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> x(-3, 3), z(-8, 4);
   for (const Camera& any : cameras) {
-    const RayGenerator rays(any, kSize);
+    const RayGenerator rays(any, kSegmentSize);
     const auto shown = [&](const Vec3& p) {
       const auto pixel = rays.project(DVec3(p));
-      const DVec2 size(kSize.width, kSize.height);
+      const DVec2 size(kSegmentSize.width, kSegmentSize.height);
       return pixel && pixel->x > 1 && pixel->y > 1 && pixel->x < size.x - 1 && pixel->y < size.y - 1
                  ? pixel
                  : std::nullopt;
@@ -203,7 +204,7 @@ TEST(Segments, DistortedLinesAreConnectedAndVisible) {
       EXPECT_TRUE(is_connected(pixels)) << i;
       for (const DVec2& end : {*p, *q}) {
         const auto reaches = [&](const Pixel& pixel) {
-          const DVec2 center(pixel.first + 0.5, kSize.height - 0.5 - pixel.second);
+          const DVec2 center(pixel.first + 0.5, kSegmentSize.height - 0.5 - pixel.second);
           return std::abs(center.x - end.x) <= 1.5 && std::abs(center.y - end.y) <= 1.5;
         };
         EXPECT_TRUE(std::ranges::any_of(pixels, reaches)) << any.index() << " " << i;
@@ -217,11 +218,11 @@ TEST(Segments, OccludeAndAreOccluded) {
   scene.objects.push_back({.name = "wall", .shape = Triangle{{20, 0, 1}, {40, 0, 1}, {30, 90, 1}}});
   scene.materials.push_back({.base_color = Vec4(1, 0, 0, 1)});
   scene.objects[0].material = 0;
-  Film film = render(scene, kPixels, kSize, {.threads = 1});
+  Film film = render(scene, kPixels, kSegmentSize, {.threads = 1});
   EXPECT_EQ(film.at(10, 19), Vec3(1, 0, 0));
   EXPECT_EQ(film.at(30, 19), Vec3(1));
   scene.objects[1].shape = Triangle{{20, 0, -1}, {40, 0, -1}, {30, 90, -1}};
-  film = render(scene, kPixels, kSize, {.threads = 1});
+  film = render(scene, kPixels, kSegmentSize, {.threads = 1});
   EXPECT_EQ(film.at(30, 19), Vec3(1, 0, 0));
   EXPECT_EQ(film.at(30, 18), Vec3(1));
 }
@@ -236,7 +237,7 @@ TEST(Segments, EachTakesTwoTriangles) {
                      .colors = {Vec4(0), Vec4(1), Vec4(0), Vec4(1)},
                      .segments = {{3, 3}, {0, 1}, {0, 3}}}});
   ASSERT_TRUE(has_segments(scene));
-  widen_segments(scene, kPerspective, kSize);
+  widen_segments(scene, kPerspective, kSegmentSize);
   EXPECT_FALSE(has_segments(scene));
   const Mesh& mesh = std::get<Mesh>(scene.objects[0].shape);
   ASSERT_EQ(mesh.triangles.size(), 7U);
@@ -261,7 +262,7 @@ TEST(Segments, FaceTheCamera) {
       Scene scene =
           scene_of({Vec3(x(random), x(random), x(random)), Vec3(x(random), x(random), x(random))},
                    {{0, 1}, {0, 0}});
-      widen_segments(scene, camera, kSize);
+      widen_segments(scene, camera, kSegmentSize);
       const Mesh& mesh = std::get<Mesh>(scene.objects[0].shape);
       for (const auto& [ia, ib, ic] : mesh.triangles) {
         const DVec3 a(mesh.positions[ia]), b(mesh.positions[ib]), c(mesh.positions[ic]);

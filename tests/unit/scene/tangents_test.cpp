@@ -1,11 +1,11 @@
 #include "scene/mesh/tangents.hpp"
 
 #include "scene/mesh/tangent_groups.hpp"
+#include "support/pi.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -17,8 +17,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-constexpr double kPi = std::numbers::pi;
 
 /// Functions that give the position, normal and texture coordinates at each (x, y) of [0, 1]^2.
 struct Sheet {

@@ -96,18 +96,18 @@ tinygltf::Model parse(const Asset& asset) {
   return model;
 }
 
-std::size_t index_of(const JsonValue& value) {
+std::size_t index_from(const JsonValue& value) {
   return static_cast<std::size_t>(value.number);
 }
 
 /// Returns the index in an optional member.
 std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
-  return value != nullptr ? std::optional(index_of(*value)) : std::nullopt;
+  return value != nullptr ? std::optional(index_from(*value)) : std::nullopt;
 }
 
 /// Converts an index of tinygltf, which uses -1 for an absent index.
-std::optional<std::size_t> index_of(int index) {
+std::optional<std::size_t> index_from(int index) {
   return index >= 0 ? std::optional(static_cast<std::size_t>(index)) : std::nullopt;
 }
 
@@ -136,11 +136,11 @@ ElementType type_of(int tinygltf_type) {
 
 Model::Sparse sparse_of(const JsonValue& json) {
   const JsonValue &indices = *json.find("indices"), &values = *json.find("values");
-  return {.count = index_of(*json.find("count")),
-          .indices_view = index_of(*indices.find("bufferView")),
+  return {.count = index_from(*json.find("count")),
+          .indices_view = index_from(*indices.find("bufferView")),
           .indices_offset = index_in(indices, "byteOffset").value_or(0),
           .index_type = static_cast<int>(indices.find("componentType")->number),
-          .values_view = index_of(*values.find("bufferView")),
+          .values_view = index_from(*values.find("bufferView")),
           .values_offset = index_in(values, "byteOffset").value_or(0)};
 }
 
@@ -150,7 +150,7 @@ Model::Accessor accessor_of(const tinygltf::Accessor& accessor, const JsonValue&
                          .component_type = accessor.componentType,
                          .normalized = accessor.normalized,
                          .count = accessor.count,
-                         .view = index_of(accessor.bufferView),
+                         .view = index_from(accessor.bufferView),
                          .offset = accessor.byteOffset};
   if (const JsonValue* sparse = json.find("sparse")) result.sparse = sparse_of(*sparse);
   return result;
@@ -167,7 +167,7 @@ Model::Attributes attributes_of(const std::map<std::string, int>& attributes) {
 Model::Primitive primitive_of(const tinygltf::Primitive& primitive, const JsonValue& json) {
   Model::Primitive result{.attributes = attributes_of(primitive.attributes),
                           .indices = index_in(json, "indices"),
-                          .material = index_of(primitive.material),
+                          .material = index_from(primitive.material),
                           .mode = static_cast<Model::Mode>(primitive.mode)};
   for (const auto& target : primitive.targets) result.targets.push_back(attributes_of(target));
   return result;
@@ -190,9 +190,9 @@ DVec3 vector_of(const std::vector<double>& v, const DVec3& standard) {
 Model::Node node_of(tinygltf::Node& node) {
   Model::Node result{.name = std::move(node.name),
                      .children = indices_of(node.children),
-                     .mesh = index_of(node.mesh),
-                     .skin = index_of(node.skin),
-                     .camera = index_of(node.camera),
+                     .mesh = index_from(node.mesh),
+                     .skin = index_from(node.skin),
+                     .camera = index_from(node.camera),
                      .weights = std::move(node.weights)};
   if (!node.matrix.empty()) {
     DMat4& matrix = result.matrix.emplace();
@@ -211,7 +211,7 @@ Model::Node node_of(tinygltf::Node& node) {
 Model::Skin skin_of(const JsonValue& json) {
   Model::Skin result{.inverse_bind_matrices = index_in(json, "inverseBindMatrices")};
   for (const JsonValue& joint : json.find("joints")->items) {
-    result.joints.push_back(index_of(joint));
+    result.joints.push_back(index_from(joint));
   }
   return result;
 }
@@ -276,7 +276,7 @@ Model parse_model(const Asset& asset) {
   for (const tinygltf::Scene& scene : parsed.scenes) {
     model.scenes.push_back(indices_of(scene.nodes));
   }
-  model.scene = index_of(parsed.defaultScene).value_or(0);
+  model.scene = index_from(parsed.defaultScene).value_or(0);
   return model;
 }
 

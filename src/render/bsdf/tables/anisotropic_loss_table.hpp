@@ -1,13 +1,13 @@
 #pragma once
 /// Albedos of an anisotropic GGX reflector, as polynomials that are fitted to the integrals of
 /// ggx_albedo_table.hpp. The fit of the loss rarely exceeds the integral, and the fit of the
-/// Schlick term is rarely below it.
+/// Schlick term in anisotropic_schlick_table.hpp is rarely below it.
 ///
 /// As AnisotropicGgxAlbedo evaluates them, albedos for F = 1 are at most 0.016 above and 0.0035
-/// below the integral, rms 0.0013. Albedos for Schlick's term are at most 0.18 above and 0.024
-/// below the integral, rms 0.009. Means for F = 1 are at most 0 above and 0.0022 below the
-/// integral, rms 0.0016. Means for Schlick's term are at most 0.0007 above and 0.0003 below the
-/// integral, rms 0.0002.
+/// below the integral, rms 0.0013. Albedos for Schlick's term are at most 0.028 above and 0.017
+/// below the integral, rms 0.0013. Means for F = 1 are at most 0 above and 0.0022 below the
+/// integral, rms 0.0016. Means for Schlick's term are at most 0.0003 above and 0.00025 below the
+/// integral, rms 0.0001.
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
@@ -151,39 +151,6 @@ inline constexpr std::array<std::array<AnisotropicLossPlane, 5>, 5> kAnisotropic
 {{-0.00791F, 0.00949F, 0.01714F, -0.00737F, -0.02509F, -0.01439F, 0.01595F, 0.01244F}},
 {{0.00296F, -0.01342F, 0.00521F, 0.05071F, -0.01445F, -0.07699F, 0.00640F, 0.03977F}}}}}}}};
 
-/// For F = (1 - cos)^5, the albedo of single scattering minus that of an isotropic reflector of
-/// alpha c, divided by (sqrt(b) - sqrt(a)) (1 - sqrt(z)). The variables are those of
-/// kAnisotropicLoss, except that the last x is sqrt(z).
-using AnisotropicSchlickPlane = Polynomial2<3, 4>;
-inline constexpr std::array<std::array<AnisotropicSchlickPlane, 3>, 3> kAnisotropicSchlick = {{
-{{{{{{-0.0050F, 0.0013F, 0.0178F, 0.0105F}},
-{{-0.0040F, 0.0534F, -0.0800F, -0.0392F}},
-{{0.0031F, 0.0280F, -0.0049F, -0.0250F}}}},
-{{{{0.0707F, -0.0992F, -0.1083F, 0.0221F}},
-{{-0.0172F, 0.1799F, -0.0296F, -0.1545F}},
-{{-0.0559F, -0.1422F, 0.2307F, 0.1942F}}}},
-{{{{-0.0388F, 0.0437F, 0.0905F, 0.0072F}},
-{{0.0337F, -0.1439F, -0.0183F, 0.1491F}},
-{{0.0082F, 0.1152F, -0.1210F, -0.1827F}}}}}},
-{{{{{{-0.0636F, 0.1660F, 0.1048F, -0.1000F}},
-{{0.0479F, -0.1315F, 0.0558F, 0.1576F}},
-{{0.0368F, 0.0576F, -0.2801F, -0.1283F}}}},
-{{{{0.0506F, -0.0369F, -0.2969F, -0.0603F}},
-{{-0.1031F, 0.2506F, 0.0467F, -0.3713F}},
-{{0.0353F, -0.3796F, 0.4196F, 0.6005F}}}},
-{{{{-0.0284F, 0.0194F, 0.1589F, 0.0335F}},
-{{0.0027F, -0.0968F, 0.0670F, 0.1692F}},
-{{0.0308F, 0.1512F, -0.3036F, -0.2908F}}}}}},
-{{{{{{-0.0381F, -0.0147F, 0.2742F, 0.0892F}},
-{{0.0666F, -0.2910F, 0.0069F, 0.4011F}},
-{{-0.0016F, 0.3588F, -0.3721F, -0.5542F}}}},
-{{{{0.0216F, -0.2623F, -0.1485F, 0.2429F}},
-{{0.0029F, 0.1192F, -0.3048F, -0.3641F}},
-{{-0.0506F, 0.1035F, 0.5386F, 0.1704F}}}},
-{{{{0.0288F, 0.1733F, -0.0820F, -0.2372F}},
-{{-0.0150F, 0.0776F, 0.1794F, 0.0574F}},
-{{-0.0113F, -0.2528F, -0.0952F, 0.1982F}}}}}}}};
-
 /// The cosine-weighted means of these albedos, by powers of the first two variables.
 inline constexpr Polynomial2<7, 7> kMeanAnisotropicLoss = {{
 {{0.117581F, 0.168926F, 0.217834F, -0.086687F, 0.062698F, -0.058458F, 0.012560F}},
@@ -194,13 +161,13 @@ inline constexpr Polynomial2<7, 7> kMeanAnisotropicLoss = {{
 {{0.092560F, -0.422325F, 0.893104F, -0.914630F, 0.365741F, 0.073457F, -0.079792F}},
 {{0.043498F, -0.201626F, 0.364729F, -0.246696F, -0.039140F, 0.069158F, 0.008675F}}}};
 inline constexpr Polynomial2<7, 7> kMeanAnisotropicSchlick = {{
-{{0.018677F, -0.016723F, 0.001512F, 0.014633F, -0.019788F, 0.012452F, -0.003202F}},
-{{-0.017920F, 0.021624F, -0.030533F, 0.063354F, -0.088522F, 0.060960F, -0.016060F}},
-{{0.001481F, 0.023821F, -0.146033F, 0.347125F, -0.409656F, 0.242714F, -0.058150F}},
-{{-0.004136F, 0.127392F, -0.494134F, 0.894433F, -0.873539F, 0.450733F, -0.097955F}},
-{{-0.049093F, 0.295520F, -0.798706F, 1.146478F, -0.895335F, 0.345263F, -0.045686F}},
-{{-0.050520F, 0.266397F, -0.596733F, 0.684753F, -0.400264F, 0.095891F, -0.000779F}},
-{{-0.014041F, 0.084288F, -0.167440F, 0.148759F, -0.053954F, 0.004366F, -0.000970F}}}};
+{{0.018677F, -0.016076F, -0.004992F, 0.029083F, -0.035535F, 0.020951F, -0.004948F}},
+{{-0.018565F, 0.037378F, -0.088245F, 0.148151F, -0.138389F, 0.069813F, -0.016161F}},
+{{-0.007767F, 0.094308F, -0.305264F, 0.455659F, -0.364769F, 0.162034F, -0.035701F}},
+{{-0.031395F, 0.254194F, -0.619145F, 0.758057F, -0.546140F, 0.243613F, -0.054813F}},
+{{-0.085702F, 0.374115F, -0.701970F, 0.735702F, -0.464609F, 0.160560F, -0.016580F}},
+{{-0.071105F, 0.257754F, -0.416626F, 0.372850F, -0.181180F, 0.029663F, 0.006291F}},
+{{-0.017855F, 0.068010F, -0.101330F, 0.071545F, -0.017116F, -0.002828F, -0.000845F}}}};
 
 // clang-format on
 

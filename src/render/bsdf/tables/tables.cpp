@@ -1,5 +1,6 @@
 #include "render/bsdf/tables/tables.hpp"
 
+#include "render/bsdf/tables/anisotropic_schlick_table.hpp"
 #include "render/bsdf/tables/coating_schlick_table.hpp"
 #include "render/bsdf/tables/refraction_loss_within_table.hpp"
 

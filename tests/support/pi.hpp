@@ -1,0 +1,9 @@
+#pragma once
+
+#include <numbers>
+
+namespace microtrace {
+
+inline constexpr double kPi = std::numbers::pi;
+
+}  // namespace microtrace
