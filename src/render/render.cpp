@@ -136,6 +136,7 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
     if (channels) channels->paint(tile);
   };
   if (lit) {
+    lit->train(options, size, threads);
     draw_at_random({.world = lit->world(),
                     .integrator = integrator,
                     .options = options,

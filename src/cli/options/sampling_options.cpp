@@ -97,6 +97,10 @@ constexpr std::array kSamplingOptions{
            .words = [] { return names_of(kBsdfModels); },
            .set = [](Arguments& a,
                      const OptionValue& value) { a.path.bsdf = value.choice(kBsdfModels); }},
+    Option{.names = "--guiding",
+           .help = "let paths first learn where light comes from, for rooms that are lit indirectly",
+           .samples = Samples::change,
+           .set = [](Arguments& a, const OptionValue&) { a.path.guiding = true; }},
 };
 static_assert(is_complete(kSamplingOptions));
 

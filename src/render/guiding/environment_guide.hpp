@@ -1,16 +1,14 @@
 #pragma once
 /// Samples the light of an environment that reaches a surface.
 
-#include "render/guiding/hemisphere_bins.hpp"
+#include "render/guiding/bin_distribution.hpp"
 #include "render/guiding/lazy_cells.hpp"
 #include "render/guiding/sky_visibility.hpp"
 #include "render/lights/environment_light.hpp"
 
 #include <microtrace/math.hpp>
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 
 namespace microtrace {
@@ -36,16 +34,14 @@ class EnvironmentGuide {
     [[nodiscard]] float openness() const { return openness_; }
 
     /// Samples a unit direction for u in [0, 1)^2. part() must not be 0.
-    [[nodiscard]] Vec3 sample(const Vec2& u) const;
+    [[nodiscard]] Vec3 sample(const Vec2& u) const { return directions_.sample(u); }
     /// The pdf of sample(), per steradian.
-    [[nodiscard]] float pdf(const Vec3& d) const;
+    [[nodiscard]] float pdf(const Vec3& d) const { return directions_.pdf(d); }
 
    private:
     friend class EnvironmentGuide;
-    SignedAxis about_{};
     float part_ = 0, openness_ = 1;
-    /// Cumulative probabilities of the bins, from 0 to 2^24.
-    std::array<std::uint32_t, HemisphereBins::kCount + 1> bounds_{};
+    BinDistribution directions_;
   };
 
   /// The cell for surfaces at p with the unit normal n.

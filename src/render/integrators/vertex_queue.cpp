@@ -49,7 +49,8 @@ ScatterSetup scatter_setup(const WaveStep& step, const bsdf::Features& features)
   return setup;
 }
 
-void VertexQueue::begin(const Lighting& lighting) {
+void VertexQueue::begin(const Lighting& lighting, const PathGuide* guide) {
+  guide_ = guide;
   if (!lighting.can_sample()) std::memset(scatter_.light, 0, sizeof scatter_.light);
   // The rays of all vertices end nowhere, because their hits are known.
   std::ranges::fill(left_.t_max, std::numeric_limits<float>::infinity());
@@ -158,11 +159,19 @@ void VertexQueue::sample_lights(const WaveStep& step, const Lighting& lighting) 
   std::memcpy(scatter_.light_pdf, lights_.pdf, sizeof lights_.pdf);
 }
 
+void VertexQueue::scatter(const WaveStep& step) {
+  ScatterSetup setup = scatter_setup(step, features_);
+  setup.is_guided = guide_ != nullptr;
+  if (setup.is_guided) guided_.prepare(*guide_, kernels_, step, count_, features_.refracts, choices_.points.p, scatter_);
+  kernels_.scatter(setup, scatter_);
+  if (setup.is_guided) guided_.finish(step, count_, scatter_);
+}
+
 void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing) {
   if (count_ == 0) return;
   find_frames();
   if (lighting.can_sample()) sample_lights(step, lighting);
-  kernels_.scatter(scatter_setup(step, features_), scatter_);
+  scatter(step);
   const Lanes vertices = (Lanes{1} << count_) - 1;
   const auto& shadow = scatter_.shadow;
   const Lanes lit =
@@ -250,12 +259,13 @@ void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays
 VertexQueues::VertexQueues()
     : kernels_(kShadingKernels.best()), group_(std::make_unique<VertexGroup>()) {}
 
-void VertexQueues::begin(const Lighting& lighting) {
+void VertexQueues::begin(const Lighting& lighting, const PathGuide* guide) {
   lighting_ = &lighting;
+  guide_ = guide;
   // Materials of a previous scene may have had the same addresses.
   group_->surface_of.fill(nullptr);
   for (const auto& queue : queues_) {
-    if (queue) queue->begin(lighting);
+    if (queue) queue->begin(lighting, guide);
   }
 }
 
@@ -275,7 +285,7 @@ void VertexQueues::add(const WaveStep& step, const PathColumns& paths, std::size
     std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(index)];
     if (!queue) {
       queue = std::make_unique<VertexQueue>(features, kernels_);
-      queue->begin(*lighting_);
+      queue->begin(*lighting_, guide_);
     }
     while (lanes != 0) {
       lanes = queue->add(lanes, {.group = *group_, .paths = paths, .first = first});

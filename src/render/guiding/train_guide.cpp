@@ -1,0 +1,144 @@
+#include "render/guiding/train_guide.hpp"
+
+#include "float_environment.hpp"
+#include "render/camera_rays.hpp"
+#include "render/integrators/wave.hpp"
+#include "render/luminance.hpp"
+#include "render/sampling/dimensions.hpp"
+#include "render/sampling/sobol.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace microtrace {
+namespace {
+
+long env(const char* name, long value) {
+  const char* text = std::getenv(name);
+  return text ? std::atol(text) : value;
+}
+
+/// The numbers of paths per cell of the training picture, pass by pass. Later passes are guided by
+/// what the earlier ones learned.
+constexpr std::array<std::uint32_t, 3> kPaths = {2, 4, 10};
+const double kCells = static_cast<double>(env("G_CELLS", 8192));
+
+/// The seed of training paths, which differ from those of the picture.
+std::uint32_t training_seed(std::uint32_t seed) {
+  return sampling::hash(seed, 0x74726169U);
+}
+
+/// The picture's aspect ratio with about kCells cells.
+ImageSize training_size(ImageSize size) {
+  const double scale = std::sqrt(kCells / (double{1} * size.width * size.height));
+  const auto side = [&](std::uint32_t pixels) {
+    return std::max(static_cast<std::uint32_t>(pixels * scale), 1U);
+  };
+  return {.width = side(size.width), .height = side(size.height)};
+}
+
+/// Adds the records of paths `first` to `last` of the tile's cells.
+class Trainer {
+ public:
+  Trainer(const World& world, const PathOptions& options, ImageSize size, ImageSize cells)
+      : world_(world), options_(options), ray_(world.camera, world.scene) {
+    scale_ = {double(size.width) / cells.width, double(size.height) / cells.height};
+  }
+
+  void trace(const PixelRect& tile, std::uint32_t first, std::uint32_t last) {
+    std::unique_ptr<Worker> worker = take();
+    std::size_t count = 0;
+    for (std::uint32_t k = first; k < last; ++k) {
+      for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+        for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
+          const std::uint32_t key = sampling::pixel_key(training_seed(world_.seed), x, y);
+          const sampling::Sobol sobol(key, k);
+          const Vec2 at = sobol.pair(sampling::kPixelPair);
+          const Ray ray = ray_.sample((x + double{at.x}) * scale_.x, (y + double{at.y}) * scale_.y,
+                                      sobol.pair(sampling::kLensPair));
+          worker->rays[count] = ray;
+          worker->ids[count++] = {.x = x, .y = y, .index = k, .key = key};
+        }
+      }
+    }
+    worker->wave.trace(world_, options_, std::span(worker->rays).first(count),
+                       std::span(worker->ids).first(count),
+                       std::span(worker->samples).first(count), &worker->records);
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < count; ++i) sum += static_cast<std::uint64_t>(std::clamp(luminance(worker->samples[i].color), 0.0F, 1e6F) * 0x1p20F);
+    const std::scoped_lock lock(mutex_);
+    brightness_ += sum;
+    count_ += count;
+    idle_.push_back(std::move(worker));
+  }
+
+  /// Moves the records of all threads to `all`, in any order.
+  void collect(GuideRecords& all) {
+    for (const auto& worker : idle_) {
+      for (std::size_t face = 0; face < all.size(); ++face) {
+        std::vector<GuideRecord>& own = worker->records[face];
+        all[face].insert(all[face].end(), own.begin(), own.end());
+        own.clear();
+      }
+    }
+  }
+
+ private:
+  struct Worker {
+    Wave wave;
+    GuideRecords records;
+    std::array<Ray, kRandomBatch> rays;
+    std::array<SampleId, kRandomBatch> ids;
+    std::array<Sample, kRandomBatch> samples;
+  };
+
+  std::unique_ptr<Worker> take() {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Worker>();
+    std::unique_ptr<Worker> worker = std::move(idle_.back());
+    idle_.pop_back();
+    return worker;
+  }
+
+  const World& world_;
+  const PathOptions& options_;
+  CameraRays ray_;
+  DVec2 scale_;
+  std::mutex mutex_;
+ public:
+  std::uint64_t brightness_ = 0, count_ = 0;
+  std::vector<std::unique_ptr<Worker>> idle_;
+};
+
+}  // namespace
+
+std::unique_ptr<const PathGuide> train_guide(const World& untrained, const PathOptions& options,
+                                             ImageSize size, Threads& threads,
+                                             const std::function<bool(double)>& progress) {
+  World world = untrained;
+  const ImageSize cells = training_size(size);
+  const PixelRect all{.x0 = 0, .y0 = 0, .x1 = cells.width, .y1 = cells.height};
+  Trainer trainer(world, options, size, cells);
+  GuideRecords records;
+  std::unique_ptr<const PathGuide> guide;
+  std::uint32_t first = 0;
+  for (const std::uint32_t paths : kPaths) {
+    const auto trace = [&](const PixelRect& tile, const auto& /*poll*/) {
+      const FloatEnvironment environment;
+      trainer.trace(tile, first, first + paths);
+    };
+    for_each_tile(all, threads, trace, progress);
+    trainer.collect(records);
+    guide = std::make_unique<const PathGuide>(records, static_cast<float>(static_cast<double>(trainer.brightness_)/static_cast<double>(trainer.count_)*0x1p-20));
+    world.guide = guide.get();
+    first += paths;
+  }
+  return guide;
+}
+
+}  // namespace microtrace
