@@ -25,27 +25,6 @@ constexpr int kGreatestDepth = 24;
 /// not attract most samples.
 const double kMostOfMean = static_cast<double>(env("G_CLAMP", 32));
 
-/// Averages each bin with its neighbors.
-BinDistribution::Weights blurred(const BinDistribution::Weights& values) {
-  constexpr int kRows = HemisphereBins::kRows, kColumns = HemisphereBins::kColumns;
-  BinDistribution::Weights result{};
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      double sum = 0;
-      for (int dy = -1; dy <= 1; ++dy) {
-        const int y = std::clamp(row + dy, 0, kRows - 1);
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int x = (column + dx + kColumns) % kColumns;
-          const int weight = (3 - 2 * std::abs(dx)) * (3 - 2 * std::abs(dy));
-          sum += weight * values[static_cast<std::size_t>(y * kColumns + x)];
-        }
-      }
-      result[static_cast<std::size_t>(row * kColumns + column)] = sum;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 class PathGuide::Builder {
@@ -112,34 +91,25 @@ class PathGuide::Builder {
     for (const GuideRecord& record : records)
       sum += static_cast<std::uint64_t>(double{record.value} * unit);
     const double most = kMostOfMean * static_cast<double>(sum) / static_cast<double>(records.size());
-    std::array<std::uint64_t, HemisphereBins::kCount> sums{};
     const HemisphereBins bins(about_);
     std::uint64_t clamped = 0;
-    std::size_t lit = 0;
+    light_.clear();
     for (const GuideRecord& record : records) {
       const auto value = static_cast<std::uint64_t>(std::min(double{record.value} * unit, most));
-      const int bin = bins.bin(record.d);
       clamped += value;
-      if (value == 0 || bin < 0) continue;
-      ++lit;
-      sums[static_cast<std::size_t>(bin)] += value;
+      if (value != 0 && bins.bin(record.d) >= 0) light_.push_back({.d = record.d, .amount = value});
     }
-    BinDistribution::Weights weights{};
-    double all = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      weights[i] = static_cast<double>(sums[i]);
-      all += weights[i];
-    }
-    if (lit < kLeastLit || !(all > 0)) return;
+    if (light_.size() < kLeastLit) return;
     guide_.nodes_[index].child = static_cast<std::uint32_t>(guide_.cells_.size());
     guide_.cells_.push_back(
-        {.directions = BinDistribution(about_, blurred(weights)),
+        {.directions = GuideDistribution(about_, light_),
          .irradiance = static_cast<float>(static_cast<double>(clamped) / unit /
                                           static_cast<double>(records.size()))});
   }
 
   PathGuide& guide_;
   SignedAxis about_{};
+  std::vector<GuideDistribution::Light> light_;
 };
 
 PathGuide::PathGuide(GuideRecords records, float brightness) : brightness_(brightness), nodes_(6) {

@@ -1,7 +1,7 @@
 #pragma once
 /// Where the light of a scene arrives from, learned from paths.
 
-#include "render/guiding/bin_distribution.hpp"
+#include "render/guiding/guide_distribution.hpp"
 
 #include <microtrace/math.hpp>
 
@@ -37,7 +37,7 @@ class PathGuide {
   float brightness() const { return brightness_; }
 
   struct Cell {
-    BinDistribution directions;
+    GuideDistribution directions;
     float irradiance;  ///< an estimate
   };
   /// The cell of surfaces at p with the unit normal n; null if too little is known.

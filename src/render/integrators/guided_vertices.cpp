@@ -39,6 +39,7 @@ void GuidedVertices::prepare(const PathGuide& guide, const ShadingKernels& kerne
     lanes.guide_part[lane] = 0;
     lanes.light_guide_pdf[lane] = 0;
     const float part = part_of(lanes, lane, refracts);
+    is_smooth_[k] = part == 0;
     cells_[k] = part > 0 ? guide.at(got(p, lane), got(lanes.frame_n, lane)) : nullptr;
     if (cells_[k] == nullptr) continue;
     lanes.guide_part[lane] = part;
@@ -68,6 +69,7 @@ void GuidedVertices::finish(const WaveStep& step, int count, ScatterLanes& lanes
       if (cells_[k] != nullptr)
         survival = std::max(0.1F * survival, kSurvival * luminance(unguided) *
                                                  cells_[k]->irradiance / (3.14159F * brightness_));
+      if (lanes.guide_part[lane] == 0 && is_smooth_[k]) survival = 1;
       survival = std::min(survival, most);
       if (!(chances_[1][lane] < survival)) pdf = 0;
       next = next / survival;

@@ -18,6 +18,7 @@ class GuidedVertices {
 
  private:
   std::array<const PathGuide::Cell*, kShadingLanes> cells_{};
+  std::array<bool, kShadingLanes> is_smooth_{};
   float brightness_ = 1;
   alignas(64) LaneFloats u_[2], chances_[2];
 };
