@@ -1,5 +1,7 @@
 #include "render/guiding/guide_distribution.hpp"
 
+#include "render/guiding/cumulative.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <numbers>
@@ -7,7 +9,7 @@
 namespace microtrace {
 namespace {
 
-constexpr std::uint32_t kNumbers = 1U << 24U;  // how many random numbers select a bin
+constexpr std::uint32_t kNumbers = kCumulativeNumbers;
 constexpr auto kCoarsePdf =
     static_cast<float>(HemisphereBins::kCount / (2 * std::numbers::pi * kNumbers));
 constexpr float kPartPdf = GuideDistribution::kParts * GuideDistribution::kParts / 0x1p24F;
@@ -40,20 +42,12 @@ std::array<double, n> blurred(const std::array<double, n>& values, int rows, int
   return result;
 }
 
-/// Sets bounds[i + 1] to the sum of the first i + 1 probabilities.
+/// Sets the bounds for these weights.
 template <std::size_t n>
 void accumulate(const std::array<double, n>& weights, std::array<std::uint32_t, n + 1>& bounds) {
-  double sum = 0, below = 0;
+  double sum = 0;
   for (const double weight : weights) sum += weight;
-  for (std::size_t i = 0; i < n; ++i) {
-    below += weights[i];
-    bounds[i + 1] = std::max(static_cast<std::uint32_t>(below / sum * kNumbers), bounds[i]);
-  }
-  // The last bin with a weight gets what rounding left.
-  for (std::size_t i = n; i-- > 0;) {
-    bounds[i + 1] = kNumbers;
-    if (weights[i] > 0) break;
-  }
+  accumulate_weights(weights, sum, bounds);
 }
 
 std::size_t part_at(const Vec2& place) {
@@ -117,7 +111,8 @@ Vec3 GuideDistribution::sample(const Vec2& u) const {
   std::size_t bin = first_[number >> 16U];
   while (bounds_[bin + 1] <= number) ++bin;
   const std::uint32_t first = bounds_[bin], width = bounds_[bin + 1] - first;
-  const float along = (static_cast<float>(number - first) + 0.5F) / static_cast<float>(width);
+  const float along = std::min(
+      (static_cast<float>(number - first) + 0.5F) / static_cast<float>(width), 0x1.fffffep-1F);
   Vec2 place(along, u.y);
   if (const std::uint16_t fine = fine_of_[bin]; fine != kNone) {
     const auto& parts = fine_[fine];

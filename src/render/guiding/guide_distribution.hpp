@@ -12,8 +12,7 @@
 namespace microtrace {
 
 /// A pdf of directions on a hemisphere: constant within each of HemisphereBins, or within each of
-/// kParts^2 parts of the bins from which much of the light arrives. Probabilities are multiples of
-/// 2^-24, so the returned pdf is exact.
+/// kParts^2 parts of the bins from which much of the light arrives.
 class GuideDistribution {
  public:
   static constexpr int kParts = 4;  ///< parts of a fine bin along each side
@@ -31,9 +30,8 @@ class GuideDistribution {
   /// The pdf of sample(), per steradian.
   [[nodiscard]] float pdf(const Vec3& d) const;
 
-  [[nodiscard]] std::size_t memory() const {
-    return sizeof *this + fine_.size() * sizeof fine_[0];
-  }
+  /// The bytes of memory beyond the size of the object.
+  [[nodiscard]] std::size_t memory() const { return fine_.size() * sizeof fine_[0]; }
 
  private:
   static constexpr std::size_t kBins = HemisphereBins::kCount;

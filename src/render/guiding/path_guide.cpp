@@ -1,11 +1,10 @@
 #include "render/guiding/path_guide.hpp"
 
 #include "base/memory_account.hpp"
+#include "render/guiding/robust_mean.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdlib>
+#include <numbers>
 #include <span>
 
 #include <glm/common.hpp>
@@ -13,113 +12,89 @@
 namespace microtrace {
 namespace {
 
-long env(const char* name, long value) {
-  const char* text = std::getenv(name);
-  return text ? std::atol(text) : value;
-}
-const std::size_t kMostRecords = static_cast<std::size_t>(env("G_MOST", 2048));
-constexpr std::size_t kLeastRecords = 32;
-constexpr std::size_t kLeastLit = 16;
+/// A part of space with more records is divided.
+constexpr std::size_t kMostRecords = 1024;
+/// A part of space with fewer records, or fewer that found light, says less than those around it.
+constexpr std::size_t kLeastRecords = 32, kLeastLit = 16;
 constexpr int kGreatestDepth = 24;
-/// A record counts at most this many times the mean of its cell, so that a bright exception does
-/// not attract most samples.
-const double kMostOfMean = static_cast<double>(env("G_CLAMP", 32));
 
 }  // namespace
 
 class PathGuide::Builder {
  public:
-  explicit Builder(PathGuide& guide) : guide_(guide) {}
+  Builder(PathGuide& guide, float brightness) : guide_(guide), brightness_(brightness) {}
 
   void build(std::uint32_t index, const SignedAxis& about, std::span<GuideRecord> records) {
     about_ = about;
     if (records.empty()) return;
-    Vec3 low = records[0].p, high = low;
+    Box box{.low = records[0].p, .high = records[0].p};
     for (const GuideRecord& record : records) {
-      low = glm::min(low, record.p);
-      high = glm::max(high, record.p);
+      box.low = glm::min(box.low, record.p);
+      box.high = glm::max(box.high, record.p);
     }
-    split(index, records, low, high, 0);
+    split(index, records, box, 0);
   }
 
  private:
-  void split(std::uint32_t index, std::span<GuideRecord> records, const Vec3& low,
-             const Vec3& high, int depth) {
-    const Vec3 extent = high - low;
-    const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2)
-                                          : (extent.y >= extent.z ? 1 : 2);
-    const float middle = low[axis] + 0.5F * extent[axis];
-    const bool is_leaf = records.size() <= kMostRecords || depth == kGreatestDepth ||
-                         !(middle > low[axis]) || !(middle < high[axis]);
-    if (is_leaf) return make_cell(index, records);
-    const auto second = std::partition(records.begin(), records.end(), [&](const GuideRecord& r) {
-      return r.p[axis] < middle;
-    });
-    const auto count = static_cast<std::size_t>(second - records.begin());
+  struct Box {
+    Vec3 low, high;
+  };
+
+  /// Makes the tree of these records, whose root is the node `index`.
+  void split(std::uint32_t index, std::span<GuideRecord> records, const Box& box, int depth) {
+    const Vec3 half = 0.5F * box.high - 0.5F * box.low;
+    const int axis = SignedAxis::nearest(half).axis;
+    const float middle = box.low[axis] + half[axis];
+    if (records.size() <= kMostRecords || depth == kGreatestDepth || !(middle > box.low[axis]) ||
+        !(middle < box.high[axis]))
+      return make_cell(index, records);
+    const auto above = std::partition(records.begin(), records.end(),
+                                      [&](const GuideRecord& r) { return r.p[axis] < middle; });
+    const auto count = static_cast<std::size_t>(above - records.begin());
     const auto child = static_cast<std::uint32_t>(guide_.nodes_.size());
     guide_.nodes_[index] = {.split = middle, .child = child, .axis = axis};
     guide_.nodes_.resize(guide_.nodes_.size() + 2);
-    Vec3 below = high, above = low;
-    below[axis] = above[axis] = middle;
-    const std::span<GuideRecord> first = records.first(count), last = records.subspan(count);
-    // Too few records say less about a part of space than those around it.
-    const auto build_half = [&](std::uint32_t half, std::span<GuideRecord> own, const Vec3& from,
-                                const Vec3& to) {
-      if (own.size() < kLeastRecords)
-        make_cell(half, records);
-      else
-        split(half, own, from, to, depth + 1);
-    };
-    if (first.size() < kLeastRecords) {
-      // makes this cell before the records change their order
-      build_half(child, first, low, below);
-      build_half(child + 1, last, above, high);
-    } else {
-      build_half(child + 1, last, above, high);
-      build_half(child, first, low, below);
-    }
+    Box first = box, last = box;
+    first.high[axis] = last.low[axis] = middle;
+    // A cell that takes its records from the whole box is made before they change their order.
+    if (count < kLeastRecords) make_cell(child, records);
+    if (records.size() - count < kLeastRecords) make_cell(child + 1, records);
+    if (count >= kLeastRecords) split(child, records.first(count), first, depth + 1);
+    if (records.size() - count >= kLeastRecords)
+      split(child + 1, records.subspan(count), last, depth + 1);
   }
 
   void make_cell(std::uint32_t index, std::span<const GuideRecord> records) {
     if (records.size() < kLeastRecords) return;
-    float greatest = 0;
-    for (const GuideRecord& record : records) greatest = std::max(greatest, record.value);
-    if (!(greatest > 0) || !std::isfinite(greatest)) return;
-    // Sums of integers don't depend on the order.
-    const double unit = std::ldexp(1.0, 40 - std::ilogb(greatest));
-    std::uint64_t sum = 0;
-    for (const GuideRecord& record : records)
-      sum += static_cast<std::uint64_t>(double{record.value} * unit);
-    const double most = kMostOfMean * static_cast<double>(sum) / static_cast<double>(records.size());
+    const RobustMean mean(records, [](const GuideRecord& record) { return record.value; });
     const HemisphereBins bins(about_);
-    std::uint64_t clamped = 0;
     light_.clear();
     for (const GuideRecord& record : records) {
-      const auto value = static_cast<std::uint64_t>(std::min(double{record.value} * unit, most));
-      clamped += value;
-      if (value != 0 && bins.bin(record.d) >= 0) light_.push_back({.d = record.d, .amount = value});
+      const std::uint64_t amount = mean.limited(record.value);
+      if (amount != 0 && bins.bin(record.d) >= 0)
+        light_.push_back({.d = record.d, .amount = amount});
     }
     if (light_.size() < kLeastLit) return;
     guide_.nodes_[index].child = static_cast<std::uint32_t>(guide_.cells_.size());
     guide_.cells_.push_back(
         {.directions = GuideDistribution(about_, light_),
-         .irradiance = static_cast<float>(static_cast<double>(clamped) / unit /
-                                          static_cast<double>(records.size()))});
+         .brightness = static_cast<float>(mean.mean() / std::numbers::pi / double{brightness_})});
+    take_memory(sizeof(Cell) + guide_.cells_.back().directions.memory(), "the guide of paths");
   }
 
   PathGuide& guide_;
+  float brightness_;
   SignedAxis about_{};
-  std::vector<GuideDistribution::Light> light_;
+  std::vector<GuideDistribution::Light> light_;  // working memory of make_cell()
 };
 
-PathGuide::PathGuide(GuideRecords records, float brightness) : brightness_(brightness), nodes_(6) {
-  Builder builder(*this);
+PathGuide::PathGuide(GuideRecords records, float brightness) : nodes_(6) {
   for (std::uint32_t face = 0; face < 6; ++face) {
     roots_[face] = face;
-    builder.build(face, {.axis = static_cast<int>(face / 2), .is_down = face % 2 != 0},
-                  records[face]);
+    if (!(brightness > 0)) continue;
+    Builder(*this, brightness)
+        .build(face, {.axis = static_cast<int>(face / 2), .is_down = face % 2 != 0}, records[face]);
   }
-  take_memory(cells_.size() * sizeof(Cell), "the guide of paths");
 }
 
 }  // namespace microtrace

@@ -6,6 +6,7 @@
 #include <microtrace/math.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,19 +28,20 @@ using GuideRecords = std::array<std::vector<GuideRecord>, 6>;
 
 /// For parts of space, and each SignedAxis toward which surfaces face, a pdf of directions in
 /// proportion to the light that arrives times the cosine. Space is divided by binary trees, finely
-/// where many training paths found light (T. Müller, M. Gross and J. Novák, Practical path guiding
+/// where many training paths had vertices (T. Müller, M. Gross and J. Novák, Practical path guiding
 /// for efficient light-transport simulation, 2017). Immutable; any number of threads may use it.
 class PathGuide {
  public:
-  /// The result depends only on the set of records, not on their order.
-  explicit PathGuide(GuideRecords records, float brightness);
-
-  float brightness() const { return brightness_; }
+  /// `brightness` is the mean luminance of the picture. The result depends only on the set of
+  /// records, not on their order.
+  PathGuide(GuideRecords records, float brightness);
 
   struct Cell {
     GuideDistribution directions;
-    float irradiance;  ///< an estimate
+    /// The luminance of a white diffuse surface, divided by that of the picture.
+    float brightness;
   };
+
   /// The cell of surfaces at p with the unit normal n; null if too little is known.
   [[nodiscard]] const Cell* at(const Vec3& p, const Vec3& n) const {
     std::uint32_t index = roots_[face_index(SignedAxis::nearest(n))];
@@ -61,7 +63,6 @@ class PathGuide {
     std::int32_t axis = 3;        ///< axis of the split; 3 for leaves
   };
 
-  float brightness_;
   std::vector<Node> nodes_;
   std::vector<Cell> cells_;
   std::array<std::uint32_t, 6> roots_{};

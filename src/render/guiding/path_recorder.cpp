@@ -3,14 +3,11 @@
 #include "render/luminance.hpp"
 #include "simd/vector3.hpp"
 
-#include <cmath>
-
 #include <glm/geometric.hpp>
 
 namespace microtrace {
 
-void PathRecorder::note(const PathColumns& paths, std::size_t count,
-                        std::span<const Vec3> colors) {
+void PathRecorder::note(const PathColumns& paths, std::size_t count, std::span<const Vec3> colors) {
   for (std::size_t i = 0; i < count; ++i) {
     if (paths.is_scattered[i] != 0) continue;
     const Vec3 d = unit<1>(vector_of(paths.d, i)), n = vector_of(paths.from_n, i);
@@ -29,8 +26,7 @@ void PathRecorder::note(const PathColumns& paths, std::size_t count,
 void PathRecorder::finish(std::span<const Vec3> colors, GuideRecords& records) {
   for (const Vertex& vertex : vertices_) {
     const float value = (luminance(colors[vertex.slot]) - vertex.before) * vertex.factor;
-    records[vertex.face].push_back(
-        {.p = vertex.p, .d = vertex.d, .value = value > 0 && std::isfinite(value) ? value : 0});
+    records[vertex.face].push_back({.p = vertex.p, .d = vertex.d, .value = value});
   }
   vertices_.clear();
 }

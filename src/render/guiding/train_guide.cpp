@@ -1,7 +1,9 @@
 #include "render/guiding/train_guide.hpp"
 
+#include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "render/camera_rays.hpp"
+#include "render/guiding/robust_mean.hpp"
 #include "render/integrators/wave.hpp"
 #include "render/luminance.hpp"
 #include "render/sampling/dimensions.hpp"
@@ -10,23 +12,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace microtrace {
 namespace {
 
-long env(const char* name, long value) {
-  const char* text = std::getenv(name);
-  return text ? std::atol(text) : value;
-}
-
 /// The numbers of paths per cell of the training picture, pass by pass. Later passes are guided by
 /// what the earlier ones learned.
 constexpr std::array<std::uint32_t, 3> kPaths = {2, 4, 10};
-const double kCells = static_cast<double>(env("G_CELLS", 8192));
+constexpr double kCells = 16384;
 
 /// The seed of training paths, which differ from those of the picture.
 std::uint32_t training_seed(std::uint32_t seed) {
@@ -42,14 +39,15 @@ ImageSize training_size(ImageSize size) {
   return {.width = side(size.width), .height = side(size.height)};
 }
 
-/// Adds the records of paths `first` to `last` of the tile's cells.
+/// Traces training paths, on any number of threads.
 class Trainer {
  public:
   Trainer(const World& world, const PathOptions& options, ImageSize size, ImageSize cells)
       : world_(world), options_(options), ray_(world.camera, world.scene) {
-    scale_ = {double(size.width) / cells.width, double(size.height) / cells.height};
+    scale_ = {double{1} * size.width / cells.width, double{1} * size.height / cells.height};
   }
 
+  /// Traces the paths `first` to `last` of each of the tile's cells.
   void trace(const PixelRect& tile, std::uint32_t first, std::uint32_t last) {
     std::unique_ptr<Worker> worker = take();
     std::size_t count = 0;
@@ -67,31 +65,38 @@ class Trainer {
       }
     }
     worker->wave.trace(world_, options_, std::span(worker->rays).first(count),
-                       std::span(worker->ids).first(count),
-                       std::span(worker->samples).first(count), &worker->records);
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < count; ++i) sum += static_cast<std::uint64_t>(std::clamp(luminance(worker->samples[i].color), 0.0F, 1e6F) * 0x1p20F);
+                       std::span(worker->ids).first(count), std::span(worker->samples).first(count),
+                       &worker->records);
+    for (std::size_t i = 0; i < count; ++i)
+      worker->luminances.push_back(luminance(worker->samples[i].color));
     const std::scoped_lock lock(mutex_);
-    brightness_ += sum;
-    count_ += count;
     idle_.push_back(std::move(worker));
   }
 
   /// Moves the records of all threads to `all`, in any order.
   void collect(GuideRecords& all) {
     for (const auto& worker : idle_) {
+      luminances_.insert(luminances_.end(), worker->luminances.begin(), worker->luminances.end());
+      worker->luminances.clear();
       for (std::size_t face = 0; face < all.size(); ++face) {
         std::vector<GuideRecord>& own = worker->records[face];
         all[face].insert(all[face].end(), own.begin(), own.end());
+        memory_.take(own.size() * kCopies * sizeof(GuideRecord), "the training paths");
         own.clear();
       }
     }
+  }
+
+  /// The mean luminance of the samples that were collected.
+  [[nodiscard]] float brightness() const {
+    return static_cast<float>(RobustMean(luminances_, [](float x) { return x; }).mean());
   }
 
  private:
   struct Worker {
     Wave wave;
     GuideRecords records;
+    std::vector<float> luminances;  ///< of the samples
     std::array<Ray, kRandomBatch> rays;
     std::array<SampleId, kRandomBatch> ids;
     std::array<Sample, kRandomBatch> samples;
@@ -105,13 +110,15 @@ class Trainer {
     return worker;
   }
 
+  static constexpr std::uint64_t kCopies = 3;  // of a thread, of all threads, and for the guide
+
   const World& world_;
   const PathOptions& options_;
   CameraRays ray_;
+  MemoryAccount memory_{memory_account().budget()};
+  std::vector<float> luminances_;
   DVec2 scale_;
   std::mutex mutex_;
- public:
-  std::uint64_t brightness_ = 0, count_ = 0;
   std::vector<std::unique_ptr<Worker>> idle_;
 };
 
@@ -134,7 +141,7 @@ std::unique_ptr<const PathGuide> train_guide(const World& untrained, const PathO
     };
     for_each_tile(all, threads, trace, progress);
     trainer.collect(records);
-    guide = std::make_unique<const PathGuide>(records, static_cast<float>(static_cast<double>(trainer.brightness_)/static_cast<double>(trainer.count_)*0x1p-20));
+    guide = std::make_unique<const PathGuide>(records, trainer.brightness());
     world.guide = guide.get();
     first += paths;
   }

@@ -162,7 +162,11 @@ void VertexQueue::sample_lights(const WaveStep& step, const Lighting& lighting) 
 void VertexQueue::scatter(const WaveStep& step) {
   ScatterSetup setup = scatter_setup(step, features_);
   setup.is_guided = guide_ != nullptr;
-  if (setup.is_guided) guided_.prepare(*guide_, kernels_, step, count_, features_.refracts, choices_.points.p, scatter_);
+  if (setup.is_guided) {
+    guided_.prepare(*guide_, kernels_, step,
+                    {.p = choices_.points.p, .count = count_, .refract = features_.refracts},
+                    scatter_);
+  }
   kernels_.scatter(setup, scatter_);
   if (setup.is_guided) guided_.finish(step, count_, scatter_);
 }
