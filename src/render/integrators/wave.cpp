@@ -79,8 +79,7 @@ void Wave::intersect(std::span<const Ray> camera_rays) {
 }
 
 void Wave::trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
-                 std::span<const SampleId> ids, std::span<Sample> samples,
-                 GuideRecords* records) {
+                 std::span<const SampleId> ids, std::span<Sample> samples, GuideRecords* records) {
   begin(world, rays, ids);
   options_ = options;
   step_.is_spec = options.bsdf == BsdfModel::spec;
