@@ -109,7 +109,9 @@ def measure(renderer, folder, scene, size, options):
     while seconds < options.seconds / 8 and trial < 1 << 14:
         trial *= 4
         seconds, _ = renderer.render(trial, 1)
-    spp = int(np.clip(round(trial * options.seconds / seconds), 1, 65536))
+    longer = renderer.render(4 * trial, 1)[0]
+    of_sample = max(longer - seconds, 1e-6) / (3 * trial)  # the rest doesn't depend on samples, such as training
+    spp = int(np.clip(round((options.seconds - (seconds - of_sample * trial)) / of_sample), 1, 65536))
     kept = folder / f"{scene.name}_{renderer.model}_reference.npy"
     if not kept.exists():
         reference = renderer.render(min(REFERENCE * spp, 65536), 9999)[1]

@@ -23,18 +23,20 @@ namespace {
 /// The numbers of paths per cell of the training picture, pass by pass. Later passes are guided by
 /// what the earlier ones learned.
 constexpr std::array<std::uint32_t, 3> kPaths = {2, 4, 10};
-constexpr double kCells = 16384;
+/// The limits of the number of cells, which is half the number of pixels between them.
+constexpr double kLeastCells = 4096, kMostCells = 32768;
 
 /// The seed of training paths, which differ from those of the picture.
 std::uint32_t training_seed(std::uint32_t seed) {
   return sampling::hash(seed, 0x74726169U);
 }
 
-/// The picture's aspect ratio with about kCells cells.
+/// The number of cells, with the picture's aspect ratio.
 ImageSize training_size(ImageSize size) {
-  const double scale = std::sqrt(kCells / (double{1} * size.width * size.height));
-  const auto side = [&](std::uint32_t pixels) {
-    return std::max(static_cast<std::uint32_t>(pixels * scale), 1U);
+  const double pixels = double{1} * size.width * size.height;
+  const double scale = std::sqrt(std::clamp(pixels / 2, kLeastCells, kMostCells) / pixels);
+  const auto side = [&](std::uint32_t edge) {
+    return std::max(static_cast<std::uint32_t>(edge * scale), 1U);
   };
   return {.width = side(size.width), .height = side(size.height)};
 }
