@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares the noise of microtrace, Mitsuba 3 (LLVM) and Blender's Cycles after equal processor time.
 
-usage: equal_time.py FOLDER MICROTRACE [--cycles PYTHON] [--seconds S] [--seeds N] [--only A,B] [SCENE...]
+usage: equal_time.py FOLDER MICROTRACE [--cycles PYTHON] [--seconds S] [--seeds N] [--only A,B] [--scenes SCENE...]
 The scenes are those of hard_scenes.py. PYTHON is a Python in which bpy can be imported. Each program renders on one
 thread; loading and compiling don't count. Each gets the number of samples that takes it about S seconds. The error is
 the root mean square of the difference from a long reference by the same program with another seed, because the

@@ -34,7 +34,7 @@ struct MICROTRACE_EXPORT World {
   const Surfaces& surfaces;   ///< this and the next three are for the library's integrators
   const Shading* shading = nullptr;
   const Lighting* lighting = nullptr;
-  const PathGuide* guide = nullptr;
+  const PathGuide* guide = nullptr;  ///< null if paths are not guided
 
   /// Returns position, normals, texture coordinates, object and triangle at a hit of `ray`.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const {

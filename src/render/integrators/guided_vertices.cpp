@@ -30,15 +30,25 @@ float survival_of(const PathGuide::Cell* cell, const Vec3& throughput) {
 
 }  // namespace
 
+void GuidedVertices::scatter(const PathGuide& guide, const ShadingKernels& kernels,
+                             const WaveStep& step, ScatterSetup setup, const Points& points,
+                             ScatterLanes& lanes) {
+  setup.is_guided = true;
+  prepare(guide, kernels, step, points, setup.features.refracts, lanes);
+  kernels.scatter(setup, lanes);
+  finish(step, points.count, lanes);
+}
+
 void GuidedVertices::prepare(const PathGuide& guide, const ShadingKernels& kernels,
-                             const WaveStep& step, const Points& points, ScatterLanes& lanes) {
+                             const WaveStep& step, const Points& points, bool refract,
+                             ScatterLanes& lanes) {
   kernels.random_pairs(lanes.key, lanes.index, step.pair(sampling::kDirectionPair), u_[0], u_[1]);
   kernels.random_pairs(lanes.key, lanes.index, step.pair(sampling::kLobePair), chances_[0],
                        chances_[1]);
   for (int lane = 0; lane < points.count; ++lane) {
     const auto k = static_cast<std::size_t>(lane);
     lanes.guide_part[lane] = lanes.light_guide_pdf[lane] = 0;
-    is_smooth_[k] = is_smooth(lanes.surface, lane, points.refract);
+    is_smooth_[k] = is_smooth(lanes.surface, lane, refract);
     cells_[k] = is_smooth_[k] ? nullptr : guide.at(got(points.p, lane), got(lanes.frame_n, lane));
     if (cells_[k] == nullptr) continue;
     const GuideDistribution& directions = cells_[k]->directions;

@@ -159,23 +159,15 @@ void VertexQueue::sample_lights(const WaveStep& step, const Lighting& lighting) 
   std::memcpy(scatter_.light_pdf, lights_.pdf, sizeof lights_.pdf);
 }
 
-void VertexQueue::scatter(const WaveStep& step) {
-  ScatterSetup setup = scatter_setup(step, features_);
-  setup.is_guided = guide_ != nullptr;
-  if (setup.is_guided) {
-    guided_.prepare(*guide_, kernels_, step,
-                    {.p = choices_.points.p, .count = count_, .refract = features_.refracts},
-                    scatter_);
-  }
-  kernels_.scatter(setup, scatter_);
-  if (setup.is_guided) guided_.finish(step, count_, scatter_);
-}
-
 void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing) {
   if (count_ == 0) return;
   find_frames();
   if (lighting.can_sample()) sample_lights(step, lighting);
-  scatter(step);
+  if (guide_ == nullptr)
+    kernels_.scatter(scatter_setup(step, features_), scatter_);
+  else
+    guided_.scatter(*guide_, kernels_, step, scatter_setup(step, features_),
+                    {choices_.points.p, count_}, scatter_);
   const Lanes vertices = (Lanes{1} << count_) - 1;
   const auto& shadow = scatter_.shadow;
   const Lanes lit =

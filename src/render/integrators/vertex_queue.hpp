@@ -56,8 +56,6 @@ class VertexQueue {
   /// Adds the values that only surfaces with features have.
   void add_extensions(Lanes lanes, const VertexGroup& group);
   void find_frames();
-  /// Computes direct light and the next directions.
-  void scatter(const WaveStep& step);
   void sample_lights(const WaveStep& step, const Lighting& lighting);
   /// Reduces the light of the samples in the given lanes by the media around the vertices.
   void cross_media(Lanes lanes, const NestedMediaTable& media);
