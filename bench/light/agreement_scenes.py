@@ -29,6 +29,20 @@ def quad(corner, along, up):
             "triangles": np.array([[0, 1, 2], [0, 2, 3]])}
 
 
+def textured_quad(corner, along, up):
+    """Like quad(), with normals and texture coordinates. The first row of the texture is at the end of `up`."""
+    mesh = quad(corner, along, up)
+    n = np.cross(along, up)
+    return mesh | {"normals": np.tile(n / np.linalg.norm(n), (4, 1)), "uvs": np.array([[0, 1], [1, 1], [1, 0], [0, 0]], float)}
+
+
+def joined(meshes):
+    """One mesh of several that have the same attributes."""
+    starts = np.cumsum([0] + [len(m["positions"]) for m in meshes[:-1]])
+    result = {key: np.concatenate([m[key] for m in meshes]) for key in meshes[0] if key != "triangles"}
+    return result | {"triangles": np.concatenate([m["triangles"] + start for m, start in zip(meshes, starts)])}
+
+
 def box(low, high):
     """Returns the six faces of a box. Their front sides are outside."""
     x, y, z = np.diag(np.subtract(high, low).astype(float))
@@ -65,9 +79,9 @@ class Both:
         self.mitsuba = {"type": "scene", "integrator": {"type": "path", "max_depth": depth, "rr_depth": 100},
                         "sensor": camera}
 
-    def add(self, mesh, color=(0.5, 0.5, 0.5), emission=0.0, conductor=None):
+    def add(self, mesh, color=(0.5, 0.5, 0.5), emission=0.0, conductor=None, emissive_png=None, mask_png=None):
         """Adds a mesh. `conductor` is the roughness of a conductor that reflects all light; without it, the surface is
-        diffuse."""
+        diffuse. `emissive_png` is a texture of the emission, and `mask_png` a gray texture: black parts are missing."""
         number = len(self.mitsuba)
         path = self.folder / f"{self.name}_{number}.ply"
         files.write_ply(path, mesh)
@@ -81,15 +95,43 @@ class Both:
         else:
             base |= {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 1, "roughnessFactor": conductor}
             bsdf = {"type": "roughconductor", "material": "none", "distribution": "ggx", "alpha": conductor**2}
+        bsdf = {"type": "twosided", "bsdf": bsdf} if not emission else bsdf
+        if mask_png:
+            base["baseColorTexture"] = self.alpha_texture(mask_png)
+            material |= {"alphaMode": "MASK", "alphaCutoff": 0.5}
+            opacity = {"type": "bitmap", "filename": str(mask_png), "raw": True, "filter_type": "nearest"}
+            bsdf = {"type": "mask", "opacity": self.upright(opacity), "bsdf": bsdf}
         if emission:
             material |= {"emissiveFactor": [1, 1, 1], "doubleSided": False}
             material.setdefault("extensions", {})["KHR_materials_emissive_strength"] = {"emissiveStrength": emission}
             shape["emitter"] = {"type": "area", "radiance": {"type": "rgb", "value": emission}}
-        shape["bsdf"] = {"type": "twosided", "bsdf": bsdf} if not emission else bsdf
+            if emissive_png:
+                material["emissiveTexture"] = self.glb.texture(emissive_png)
+                x = np.array(mi.Bitmap(str(emissive_png))) / np.float32(255)
+                light = emission * np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
+                shape["emitter"]["radiance"] = self.upright(
+                    {"type": "bitmap", "bitmap": mi.Bitmap(light.astype(np.float32)), "raw": True})
+        shape["bsdf"] = bsdf
         self.mitsuba[f"shape{number}"] = shape
-        primitive = self.glb.primitive({k: v for k, v in mesh.items() if k != "uvs"},
+        has_texture = emissive_png or mask_png
+        primitive = self.glb.primitive({k: v for k, v in mesh.items() if k != "uvs" or has_texture},
                                        self.glb.add("materials", material))
         self.glb.add_node(mesh=self.glb.add("meshes", {"primitives": [primitive]}))
+
+    @staticmethod
+    def upright(texture):
+        """Flips a texture of Mitsuba, for which v points up, to glTF's orientation."""
+        return texture | {"to_uv": mi.ScalarTransform4f().scale([1, -1, 1])}
+
+    def alpha_texture(self, gray_png):
+        """A white texture whose alpha is the gray value of a file."""
+        gray = np.array(mi.Bitmap(str(gray_png)))
+        gray = gray.reshape(gray.shape[:2])
+        path = gray_png.with_name(f"{gray_png.stem}_alpha.png")
+        mi.Bitmap(np.dstack([np.full_like(gray, 255)] * 3 + [gray])).write(str(path))
+        texture = self.glb.texture(path)
+        self.glb.document["textures"][texture["index"]]["sampler"] = self.glb.add("samplers", {"magFilter": 9728, "minFilter": 9728})
+        return texture
 
     def add_glass(self, mesh):
         """Adds a closed mesh of smooth clear glass."""

@@ -18,6 +18,7 @@
 namespace microtrace {
 
 class Lighting;
+class PathGuide;
 class Shading;
 class Surfaces;
 
@@ -30,9 +31,10 @@ struct MICROTRACE_EXPORT World {
   const RayGenerator& camera;
   std::uint32_t seed = 0;     ///< random seed
   std::uint32_t samples = 1;  ///< samples per pixel for which base_color() filters textures
-  const Surfaces& surfaces;   ///< this and the next two are for the library's integrators
+  const Surfaces& surfaces;   ///< this and the next three are for the library's integrators
   const Shading* shading = nullptr;
   const Lighting* lighting = nullptr;
+  const PathGuide* guide = nullptr;  ///< null if paths are not guided
 
   /// Returns position, normals, texture coordinates, object and triangle at a hit of `ray`.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const {

@@ -48,6 +48,9 @@ struct PathOptions {
   Backfaces backfaces = Backfaces::pass;
   BsdfModel bsdf = BsdfModel::conserving;
   std::optional<Ground> ground{};
+  /// True if paths first learn where light arrives from, and then prefer these directions. Pictures
+  /// have the same mean, but different noise. Can't be combined with a shutter.
+  bool guiding = false;
 };
 
 /// Path tracing (J. Kajiya, The rendering equation, 1986) with the scene's lights, its environment,
@@ -58,6 +61,7 @@ class MICROTRACE_EXPORT PathIntegrator final : public Integrator {
   explicit PathIntegrator(const PathOptions& options = {});
   ~PathIntegrator() override;
 
+  [[nodiscard]] const PathOptions& options() const { return options_; }
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;
   [[nodiscard]] bool is_random() const override { return true; }

@@ -12,6 +12,7 @@
 
 #include <microtrace/denoise.hpp>
 #include <microtrace/error.hpp>
+#include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/threads.hpp>
 
@@ -59,6 +60,9 @@ void check(const Shutter& shutter, const RenderOptions& options) {
   if (options.integrator == nullptr || !options.integrator->is_random())
     refuse_options("a shutter requires a Monte Carlo integrator");
   const ShutterTimes& times = shutter.times;
+  const auto* paths = dynamic_cast<const PathIntegrator*>(options.integrator);
+  if (paths != nullptr && paths->options().guiding)
+    refuse_options("guiding can't be combined with a shutter");
   if (!std::isfinite(times.open) || !std::isfinite(times.close) || times.open > times.close)
     refuse_options("shutter.times.open and close must be finite, and open at most close");
   if (!std::has_single_bit(times.count) || times.count > kMaxSamples)
@@ -136,6 +140,7 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
     if (channels) channels->paint(tile);
   };
   if (lit) {
+    lit->train(options, size, threads);
     draw_at_random({.world = lit->world(),
                     .integrator = integrator,
                     .options = options,

@@ -18,10 +18,12 @@ struct Shot {
   std::uint32_t max_depth = 8;
   Backfaces backfaces = Backfaces::pass;
   unsigned threads = 1;
+  bool guiding = false;
 };
 
 [[nodiscard]] inline Film shoot(const Scene& scene, const Camera& camera, const Shot& shot) {
-  const PathIntegrator path({.max_depth = shot.max_depth, .backfaces = shot.backfaces});
+  const PathIntegrator path(
+      {.max_depth = shot.max_depth, .backfaces = shot.backfaces, .guiding = shot.guiding});
   return render(
       scene, camera, shot.size,
       {.threads = shot.threads, .integrator = &path, .samples = shot.samples, .seed = shot.seed});

@@ -97,6 +97,13 @@ constexpr std::array kSamplingOptions{
            .words = [] { return names_of(kBsdfModels); },
            .set = [](Arguments& a,
                      const OptionValue& value) { a.path.bsdf = value.choice(kBsdfModels); }},
+    Option{.names = "--guiding",
+           .help =
+               "let paths first learn where light arrives from and then prefer these directions, "
+               "for light that is hard to find: through a gap, through glass",
+           .samples = Samples::change,
+           .excludes = "--shutter",
+           .set = [](Arguments& a, const OptionValue&) { a.path.guiding = true; }},
 };
 static_assert(is_complete(kSamplingOptions));
 

@@ -1,5 +1,6 @@
 #include "render/guiding/environment_guide.hpp"
 
+#include "render/guiding/cumulative.hpp"
 #include "render/luminance.hpp"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 namespace microtrace {
 namespace {
 
-constexpr std::uint32_t kNumbers = 1U << 24U;  // how many random numbers select a bin
 /// Surfaces that see more of the environment are sampled independently of visibility.
 constexpr float kGreatestOpenness = 0.25F;
 /// The probability of sampling by visibility. It is lower for maps, because small bright parts of a
@@ -20,7 +20,7 @@ constexpr float kPartOfUniform = 0.875F, kPartOfMap = 0.5F;
 }  // namespace
 
 Vec3 EnvironmentGuide::Cell::sample(const Vec2& u) const {
-  const auto number = static_cast<std::uint32_t>(u.x * static_cast<float>(kNumbers));
+  const auto number = static_cast<std::uint32_t>(u.x * static_cast<float>(kCumulativeNumbers));
   // The last bin that begins at or below the number. The binary search has no branches, of which
   // half would be mispredicted.
   std::size_t bin = 0;
@@ -37,7 +37,7 @@ float EnvironmentGuide::Cell::pdf(const Vec3& d) const {
   const int bin = HemisphereBins(about_).bin(d);
   if (bin < 0) return 0;
   constexpr auto kScale =
-      static_cast<float>(HemisphereBins::kCount / (2 * std::numbers::pi * kNumbers));
+      static_cast<float>(HemisphereBins::kCount / (2 * std::numbers::pi * kCumulativeNumbers));
   const auto i = static_cast<std::size_t>(bin);
   return static_cast<float>(bounds_[i + 1] - bounds_[i]) * kScale;
 }
@@ -67,17 +67,7 @@ std::unique_ptr<const EnvironmentGuide::Cell> EnvironmentGuide::fill(std::size_t
   cell->openness_ = static_cast<float>(arriving / cosines);
   if (!(sum > 0) || cell->openness_ > kGreatestOpenness) return cell;
   cell->part_ = environment_.is_uniform() ? kPartOfUniform : kPartOfMap;
-  double below = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    below += weights[i];
-    cell->bounds_[i + 1] =
-        std::max(static_cast<std::uint32_t>(below / sum * kNumbers), cell->bounds_[i]);
-  }
-  // The last bin with light gets what rounding left.
-  for (std::size_t i = weights.size(); i-- > 0;) {
-    cell->bounds_[i + 1] = kNumbers;
-    if (weights[i] > 0) break;
-  }
+  accumulate_weights(weights, sum, cell->bounds_);
   return cell;
 }
 

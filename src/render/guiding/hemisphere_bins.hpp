@@ -52,13 +52,22 @@ class HemisphereBins {
     return d;
   }
   /// The bin of a unit direction; -1 below the hemisphere.
-  [[nodiscard]] int bin(const Vec3& d) const {
+  [[nodiscard]] int bin(const Vec3& d) const { return place(d).bin; }
+
+  struct Place {
+    int bin;      ///< -1 below the hemisphere
+    Vec2 within;  ///< the position within the bin, at most 1
+  };
+  /// The inverse of direction().
+  [[nodiscard]] Place place(const Vec3& d) const {
     const float height = about_.is_down ? -d[about_.axis] : d[about_.axis];
-    if (!(height > 0)) return -1;
+    if (!(height > 0)) return {.bin = -1, .within = Vec2(0)};
     const float turn = atan2_revolutions(d[(about_.axis + 2) % 3], d[(about_.axis + 1) % 3]);
-    const int row = std::min(static_cast<int>(height * kRows), kRows - 1);
-    const int column = static_cast<int>(chosen<1>(turn < 0, turn + 1, turn) * kColumns);
-    return row * kColumns + std::min(column, kColumns - 1);
+    const float y = height * kRows, x = chosen<1>(turn < 0, turn + 1, turn) * kColumns;
+    const int row = std::min(static_cast<int>(y), kRows - 1);
+    const int column = std::min(static_cast<int>(x), kColumns - 1);
+    return {.bin = row * kColumns + column,
+            .within = {y - static_cast<float>(row), x - static_cast<float>(column)}};
   }
 
  private:

@@ -46,7 +46,8 @@ ScatterSetup scatter_setup(const WaveStep& step, const bsdf::Features& features)
   return setup;
 }
 
-void VertexQueue::begin(const Lighting& lighting) {
+void VertexQueue::begin(const Lighting& lighting, const PathGuide* guide) {
+  guide_ = guide;
   if (!lighting.can_sample()) std::memset(scatter_.light, 0, sizeof scatter_.light);
   // The rays of all vertices end nowhere, because their hits are known.
   std::ranges::fill(left_.t_max, std::numeric_limits<float>::infinity());
@@ -100,7 +101,11 @@ void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Outgoin
   if (count_ == 0) return;
   find_frames();
   if (lighting.can_sample()) sample_lights(step, lighting);
-  kernels_.scatter(scatter_setup(step, features_), scatter_);
+  if (guide_ == nullptr)
+    kernels_.scatter(scatter_setup(step, features_), scatter_);
+  else
+    guided_.scatter(*guide_, kernels_, step, scatter_setup(step, features_),
+                    {choices_.points.p, count_}, scatter_);
   const Lanes vertices = (Lanes{1} << count_) - 1;
   const auto& shadow = scatter_.shadow;
   const Lanes lit =
@@ -171,12 +176,13 @@ void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays
 VertexQueues::VertexQueues()
     : kernels_(kShadingKernels.best()), group_(std::make_unique<VertexGroup>()) {}
 
-void VertexQueues::begin(const Lighting& lighting) {
+void VertexQueues::begin(const Lighting& lighting, const PathGuide* guide) {
   lighting_ = &lighting;
+  guide_ = guide;
   // Materials of a previous scene may have had the same addresses.
   group_->surface_of.fill(nullptr);
   for (const auto& queue : queues_) {
-    if (queue) queue->begin(lighting);
+    if (queue) queue->begin(lighting, guide);
   }
 }
 
@@ -196,7 +202,7 @@ void VertexQueues::add(const WaveStep& step, const PathColumns& paths, std::size
     std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(index)];
     if (!queue) {
       queue = std::make_unique<VertexQueue>(features, kernels_);
-      queue->begin(*lighting_);
+      queue->begin(*lighting_, guide_);
     }
     while (lanes != 0) {
       lanes = queue->add(lanes, {.group = *group_, .paths = paths, .first = first});

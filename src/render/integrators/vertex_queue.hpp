@@ -4,6 +4,7 @@
 
 #include "accel/ray_tracer.hpp"
 #include "render/integrators/column_list.hpp"
+#include "render/integrators/guided_vertices.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/shadow_rays.hpp"
 #include "render/integrators/vertex_group.hpp"
@@ -36,7 +37,7 @@ class VertexQueue {
       : features_(features), kernels_(kernels) {}
 
   /// Clears the light samples of the previous scene if this lighting samples no lights.
-  void begin(const Lighting& lighting);
+  void begin(const Lighting& lighting, const PathGuide* guide);
 
   /// Vertices of a group, and their paths from the path `first` on.
   struct Vertices {
@@ -83,6 +84,8 @@ class VertexQueue {
   NormalMapLanes normals_{}, coat_normals_{};
   ScatterLanes scatter_{};
   OriginLanes origins_{};
+  const PathGuide* guide_ = nullptr;  ///< null if paths are not guided
+  GuidedVertices guided_;
 };
 
 /// The queues of all kinds of vertices.
@@ -90,7 +93,8 @@ class VertexQueues {
  public:
   VertexQueues();
 
-  void begin(const Lighting& lighting);
+  /// `guide` is null if paths are not guided.
+  void begin(const Lighting& lighting, const PathGuide* guide);
   /// The group from which add() takes vertices.
   [[nodiscard]] VertexGroup& group() { return *group_; }
   /// Adds the vertices of the group, those of the paths from `first` on.
@@ -102,6 +106,7 @@ class VertexQueues {
  private:
   const ShadingKernels& kernels_;
   const Lighting* lighting_ = nullptr;
+  const PathGuide* guide_ = nullptr;
   std::unique_ptr<VertexGroup> group_;
   std::array<std::unique_ptr<VertexQueue>, bsdf::Features::kCount> queues_;  // by Features::index()
 };

@@ -38,7 +38,7 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
   shading_ = world.shading;
   lighting_ = world.lighting;
   step_ = {.sample_width = 1 / std::sqrt(static_cast<float>(world.samples))};
-  vertices_.begin(*lighting_);
+  vertices_.begin(*lighting_, world.guide);
   tracer_.begin(world.bvh);
   media_.clear();
   count_ = rays.size();
@@ -74,7 +74,7 @@ void Wave::intersect(std::span<const Ray> camera_rays) {
 }
 
 void Wave::trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
-                 std::span<const SampleId> ids, std::span<Sample> samples) {
+                 std::span<const SampleId> ids, std::span<Sample> samples, GuideRecords* records) {
   begin(world, rays, ids);
   options_ = options;
   step_.is_spec = options.bsdf == BsdfModel::spec;
@@ -85,11 +85,13 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
     const RayTimer timer(counts_.shadow, shadow_rays_.count() + ground_shadows_.count());
     counts_.beyond +=
         shadow_rays_.trace(tracer_, world_->bvh, *shading_, options_.backfaces, colors_);
+    if (records != nullptr) recorder_.note(*paths_, count_, colors_);
     if (ground_shadows_.count() == 0) continue;
     counts_.beyond += ground_shadows_.trace(
         world_->bvh, *shading_, options_.backfaces,
         [this](std::size_t slot, float occlusion) { darken(slot, occlusion); });
   }
+  if (records != nullptr) recorder_.finish(colors_, *records);
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = {.color = colors_[i], .alpha = alphas_[i]};
 }

@@ -3,6 +3,7 @@
 
 #include "accel/ray_tracer.hpp"
 #include "render/ground/ground_shadows.hpp"
+#include "render/guiding/path_recorder.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/shadow_rays.hpp"
 #include "render/integrators/vertex_queue.hpp"
@@ -30,9 +31,11 @@ class Wave {
  public:
   Wave();
 
-  /// Traces a path to its end for each ray. There may be at most kRandomBatch rays.
+  /// Traces a path to its end for each ray. There may be at most kRandomBatch rays. Adds what the
+  /// paths learn to `records` unless it is null.
   void trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
-             std::span<const SampleId> ids, std::span<Sample> samples);
+             std::span<const SampleId> ids, std::span<Sample> samples,
+             GuideRecords* records = nullptr);
 
   /// Returns the counts since the last call.
   [[nodiscard]] RayCounts take_counts() { return std::exchange(counts_, {}); }
@@ -141,6 +144,7 @@ class Wave {
   std::vector<LeftBody> left_bodies_;
   std::optional<float> ground_;
   GroundShadows ground_shadows_;
+  PathRecorder recorder_;
   const ShadingKernels* kernels_;
   std::size_t count_ = 0;
   // The paths of this bounce, and those of the next one.

@@ -62,6 +62,10 @@ struct alignas(64) ScatterLanes {
   /// Members of LightSample; light is 0 if there is no sample.
   LaneFloats light_wi[3], light[3], light_pdf;
   std::uint32_t key[kShadingLanes], index[kShadingLanes];  ///< key and index of sampling::Sobol
+  // Only with ScatterSetup::is_guided:
+  LaneFloats guide_part;       ///< probability of sampling the guide
+  LaneFloats guide_wi[3];      ///< the guide's sample
+  LaneFloats light_guide_pdf;  ///< the guide's pdf of light_wi
   // The kernel sets the members below.
   LaneFloats shadow[3];  ///< contribution of the light if it is not occluded
   LaneFloats pdf;        ///< pdf of the next direction; 0 if there is none
@@ -74,6 +78,9 @@ struct ScatterSetup {
   bsdf::Features features;
   std::uint32_t direction_pair, lobe_pair;
   float most_survival;  ///< maximum survival probability; 1 disables Russian roulette
+  /// True if directions are sampled by a mixture of BSDF and guide. The kernel then neither divides
+  /// next_throughput by the pdf nor plays Russian roulette, and ScatterLanes::pdf is the BSDF's.
+  bool is_guided = false;
 };
 
 /// An array of 32-bit values whose lanes are appended to another one.

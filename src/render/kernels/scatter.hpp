@@ -50,7 +50,7 @@ class Vertices {
     wo.z = larger_of(wo.z, all<N>(1e-5F));  // clamped, because rounding may put it below the
                                             // surface
     const Bsdf bsdf(features_, surface, coating, wo);
-    evaluate_light(bsdf);
+    evaluate_light(setup, bsdf);
     sample_direction(setup, bsdf);
   }
 
@@ -63,10 +63,14 @@ class Vertices {
   }
 
   /// Computes the contribution of the light sample.
-  void evaluate_light(const Bsdf& bsdf) {
+  void evaluate_light(const ScatterSetup& setup, const Bsdf& bsdf) {
     const V wi_world = load3<N>(lanes_.light_wi, i_), wi = frame_.to_local(wi_world);
     const F pdf = load<N>(lanes_.light_pdf + i_);
-    const bsdf::Evaluation<N> f = bsdf.evaluate(wi);
+    bsdf::Evaluation<N> f = bsdf.evaluate(wi);
+    if (setup.is_guided) {
+      const F part = load<N>(lanes_.guide_part + i_);
+      f.pdf = (1 - part) * f.pdf + part * load<N>(lanes_.light_guide_pdf + i_);
+    }
     const F weight = pdf > 0 ? power_heuristic(pdf, f.pdf) : all<N>(1);
     V value = f.value;
     if (features_.transmits) {
@@ -80,7 +84,9 @@ class Vertices {
   void sample_direction(const ScatterSetup& setup, const Bsdf& bsdf) {
     const auto sobol = load_sobol<N>(lanes_.key + i_, lanes_.index + i_);
     const auto chances = sobol.pair(setup.lobe_pair);
-    const auto [local, e] = bsdf.sample(sobol.pair(setup.direction_pair), chances.x);
+    const auto u = sobol.pair(setup.direction_pair);
+    if (setup.is_guided) return sample_guided(bsdf, u, chances.x);
+    const auto [local, e] = bsdf.sample(u, chances.x);
     const V wi = frame_.to_world(local);
     V next = throughput_ * (e.value / e.pdf);
     const auto is_below = local.z < 0;
@@ -98,6 +104,29 @@ class Vertices {
     store3<N>(lanes_.wi, i_, wi);
     store3<N>(lanes_.next_throughput, i_, next);
     store<N>(lanes_.pdf + i_, survives ? e.pdf : F{});
+  }
+
+  /// Samples the BSDF, or takes the guide's sample.
+  void sample_guided(const Bsdf& bsdf, const Floats2<N>& u, const F& choice) {
+    const F part = load<N>(lanes_.guide_part + i_);
+    const auto is_guided = choice < part;
+    const F lobe = is_guided ? F{} : sampling::reused<N>(choice, part, 1 - part);
+    const auto sample = bsdf.sample(u, lobe);
+    const V guide_wi = load3<N>(lanes_.guide_wi, i_), guide_local = frame_.to_local(guide_wi);
+    const bsdf::Evaluation<N> guided = bsdf.evaluate(guide_local);
+    const V local = select3(is_guided, guide_local, sample.wi);
+    const V wi = select3(is_guided, guide_wi, frame_.to_world(sample.wi));
+    const F pdf = is_guided ? guided.pdf : sample.evaluation.pdf;
+    V next = throughput_ * select3(is_guided, guided.value, sample.evaluation.value);
+    if (features_.transmits) {
+      const V crossing = load3<N>(lanes_.through_weight, i_);
+      const auto is_below = local.z < 0;
+      next = select3(is_below, V(next * crossing), next);
+      store<N>(lanes_.is_below + i_, is_below ? all<N>(1) : F{});
+    }
+    store3<N>(lanes_.wi, i_, wi);
+    store3<N>(lanes_.next_throughput, i_, next);
+    store<N>(lanes_.pdf + i_, (pdf > 0) & is_consistent(wi, local.z) ? pdf : F{});
   }
 
   FeaturesType features_;

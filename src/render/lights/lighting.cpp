@@ -31,7 +31,7 @@ Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> env
   // approximate irradiance on a surface
   setup_.environment_light =
       setup_.irradiance(double{environment_->sampled_luminance() / bsdf::kInversePi});
-  if (visibility != nullptr)
+  if (visibility != nullptr && environment_->sampled_luminance() > 0)
     guide_ = std::make_unique<const EnvironmentGuide>(*visibility, *environment_);
 }
 

@@ -1,6 +1,11 @@
 #include "render/samples/lit_view.hpp"
 
+#include "render/guiding/train_guide.hpp"
+
+#include <microtrace/path.hpp>
+
 #include <cstdint>
+#include <functional>
 #include <utility>
 
 namespace microtrace {
@@ -25,6 +30,15 @@ LitView::LitView(SceneView view, const RenderOptions& options)
   world_.seed = options.seed;
   world_.shading = &view_.content->shading();
   world_.lighting = &lighting_;
+}
+
+void LitView::train(const RenderOptions& options, ImageSize size, Threads& threads) {
+  const auto* integrator = dynamic_cast<const PathIntegrator*>(options.integrator);
+  if (integrator == nullptr || !integrator->options().guiding) return;
+  const auto go_on = [&](double) { return options.progress(0); };
+  guide_ = train_guide(world_, integrator->options(), size, threads,
+                       options.progress ? std::function<bool(double)>(go_on) : nullptr);
+  world_.guide = guide_.get();
 }
 
 }  // namespace microtrace

@@ -1,7 +1,9 @@
 #pragma once
 /// The scene of Monte Carlo integrators.
 
+#include "render/guiding/path_guide.hpp"
 #include "render/lights/lighting.hpp"
+#include "render/tiles.hpp"
 #include "render/view.hpp"
 
 #include <microtrace/render.hpp>
@@ -24,10 +26,14 @@ class LitView {
 
   [[nodiscard]] const World& world() const { return world_; }
 
+  /// Trains the guide of `options`, if they use one, for pictures of this size.
+  void train(const RenderOptions& options, ImageSize size, Threads& threads);
+
  private:
   SceneView view_;
   Lighting lighting_;
   World world_;
+  std::unique_ptr<const PathGuide> guide_;
 };
 
 }  // namespace microtrace
