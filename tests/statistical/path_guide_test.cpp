@@ -2,6 +2,7 @@
 /// hard to find, and the same bytes for any number of threads.
 #include "render/guiding/path_guide.hpp"
 
+#include "support/pi.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/chi_square.hpp"
 
@@ -55,7 +56,7 @@ const PerspectiveCamera kCamera{
 
 TEST(PathGuide, GuidedPicturesHaveTheMeanOfOthersAndLessNoise) {
   const Scene scene = rooms();
-  constexpr std::uint32_t kPictures = 16;
+  constexpr std::uint32_t kPictures = 6;
   Shot shot{.size = {24, 24}, .samples = 32, .max_depth = 12};
   const Estimate plain = estimate(scene, kCamera, shot, kPictures);
   shot.guiding = true;
@@ -164,7 +165,7 @@ TEST(PathGuide, SamplesHaveTheirPdf) {
     const Vec2 place((float(part / kParts) + 0.5F) / kParts,
                      (float(part % kParts) + 0.5F) / kParts);
     const Vec3 d = bins.direction(int(i / (kParts * kParts)), place);
-    const double share = double{cell->directions.pdf(d)} * 2 * 3.14159265358979 / kCells;
+    const double share = double{cell->directions.pdf(d)} * 2 * kPi / kCells;
     expected[i] = share * kSamples;
     sum += share;
   }
