@@ -30,6 +30,7 @@ void add(Scene& scene, const Vec3& corner, const Vec3& along, const Vec3& up,
 /// one. A smooth metal and a glass panel are in the left room.
 Scene rooms() {
   Scene scene;
+  scene.environment = Environment{.content = Vec3(0)};
   const Specular none{.factor = 0};
   scene.materials.push_back({.base_color = Vec4(0.7F), .metallic = 0, .specular = none});
   scene.materials.push_back({.base_color = Vec4(0), .metallic = 0, .specular = none});
@@ -97,7 +98,6 @@ TEST(PathGuide, ThreadsAndCropsDoNotChangeTheBytes) {
 TEST(PathGuide, BlackScenesAreRendered) {
   Scene scene = rooms();
   scene.materials[1].emissive = Vec3(0);
-  scene.environment = Environment{.content = Vec3(0)};
   EXPECT_EQ(mean_of(shoot(scene, kCamera, {.size = {4, 4}, .samples = 1, .guiding = true})).y, 0);
 }
 
