@@ -212,6 +212,9 @@ typedef struct mt_render_options {
    * MT_UNSUPPORTED before rendering if the library is not installed. */
   int32_t denoise;
   int32_t bsdf; /* one of mt_bsdf, for MT_PATH */
+  /* Nonzero: paths first learn where light arrives from, for MT_PATH and light that is hard to
+   * find. */
+  int32_t guiding;
 } mt_render_options;
 
 MT_API void mt_render_options_init(mt_render_options* options);

@@ -207,6 +207,7 @@ def render(
     seed: int = 0,
     max_depth: int = 32,
     bsdf: Literal["conserving", "spec"] = "conserving",
+    guiding: bool = False,
     ground: bool | float = False,
     crop: tuple[int, int, int, int] | None = None,
     denoise: bool = False,
@@ -236,6 +237,8 @@ def render(
         bsdf: the formulas for surfaces. "conserving" keeps the energy of light that is scattered
             several times; "spec" has those of the glTF specification, for comparisons with other
             renderers.
+        guiding: lets paths first learn where light arrives from, for light that is hard to find.
+            The mean of pictures is the same. Can't be combined with a shutter.
         ground: adds a horizontal ground that shows only shadows, so a path-traced model doesn't
             seem to float: at this y or, if True, at the lowest point of the scene. With
             transparent=True, shadows are black with alpha.
@@ -298,6 +301,7 @@ def render(
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
         "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
         "bsdf": bsdf,
+        "guiding": bool(guiding),
         "ground": _ground_arguments(ground, method),
         "crop": crop,
         "shutter": None if shutter is None else _shutter_arguments(shutter),

@@ -140,6 +140,7 @@ IntegratorOptions integrator_of(const std::string& name, const nb::dict& argumen
   PathOptions options;
   options.max_depth = nb::cast<std::uint32_t>(arguments["max_depth"]);
   options.bsdf = model_named(nb::cast<std::string>(arguments["bsdf"]));
+  options.guiding = nb::cast<bool>(arguments["guiding"]);
   if (const nb::object ground = arguments["ground"]; !ground.is_none())
     options.ground = Ground{.height = nb::cast<std::optional<double>>(ground["height"])};
   return options;

@@ -41,6 +41,7 @@ def run(program, *arguments):
         (KNOT, ["--samples", 2, "--background", "transparent"], {"spp": 2, "transparent": True}),
         (KNOT, ["--samples", 2, "--max-depth", 2], {"spp": 2, "max_depth": 2}),
         (MATERIALS, ["--samples", 2, "--bsdf", "spec"], {"spp": 2, "bsdf": "spec"}),
+        (KNOT, ["--samples", 2, "--guiding"], {"spp": 2, "guiding": True}),
         (
             KNOT,
             ["--samples", 2, "--env", "0.5,0.25,1", "--background", "0.1,0.2,0.3"],

@@ -43,6 +43,7 @@ IntegratorOptions integrator_of(const mt_render_options& options, SceneFormat fo
   if (auto* path = std::get_if<PathOptions>(&integrator)) {
     if (options.max_depth != 0) path->max_depth = options.max_depth;
     if (options.bsdf == MT_SPEC) path->bsdf = BsdfModel::spec;
+    path->guiding = options.guiding != 0;
   }
   return integrator;
 }

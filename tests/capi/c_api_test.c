@@ -280,6 +280,13 @@ static void pictures(const mt_scene* scene, const char* folder) {
   options.bsdf = 2;
   CHECK(mt_render(scene, &options, &film) == MT_USAGE);
   options.bsdf = MT_CONSERVING;
+  options.guiding = 1;
+  CHECK(mt_render(scene, &options, &film) == MT_OK);
+  static float guided[48][64][4];
+  CHECK(mt_film_rgba(film, guided[0][0]) == MT_OK);
+  CHECK(memcmp(rgba, guided, sizeof guided) != 0);
+  mt_film_release(film);
+  options.guiding = 0;
   const mt_camera blind = {{0, 0, 5}, {0, 0, 5}, {0, 1, 0}, 45};
   options.camera = &blind;
   CHECK(mt_render(scene, &options, &film) == MT_USAGE);

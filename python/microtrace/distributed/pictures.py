@@ -130,6 +130,7 @@ def render(
     seed: int = 0,
     max_depth: int = 32,
     bsdf: Literal["conserving", "spec"] = "conserving",
+    guiding: bool = False,
     ground: bool | float = False,
     denoise: bool = False,
     exposure: float | Literal["auto"] | None = None,
@@ -150,6 +151,7 @@ def render(
         camera, size, spp, aovs: see microtrace.render().
         integrator, environment, background, transparent: see microtrace.render().
         filter, seed, max_depth, bsdf, ground: see microtrace.render().
+        guiding: see microtrace.render(). Each task repeats the training.
         exposure: see microtrace.render().
         denoise: see microtrace.render(). The client denoises the finished pictures.
         threads: number of threads of each task; 0 means all processors of the worker's machine.
@@ -190,6 +192,7 @@ def render(
         "seed": seed,
         "max_depth": max_depth,
         "bsdf": bsdf,
+        "guiding": guiding,
         "ground": ground,
         "exposure": exposure,
         "threads": threads,
