@@ -16,9 +16,11 @@
 
 namespace microtrace {
 
-/// One element for each path of a wavefront.
-using PathFloats = float[kRandomBatch];
-using PathNumbers = std::uint32_t[kRandomBatch];
+/// One element for each path of a wavefront. The arrays of a path lie side by side; the last
+/// elements, which are unused, keep their addresses from mapping to the same lines of a cache.
+inline constexpr std::size_t kPathColumn = kRandomBatch + 16;
+using PathFloats = float[kPathColumn];
+using PathNumbers = std::uint32_t[kPathColumn];
 
 [[nodiscard]] inline Vec3 vector_of(const PathFloats (&columns)[3], std::size_t i) {
   return {columns[0][i], columns[1][i], columns[2][i]};

@@ -13,6 +13,46 @@ inline Double<N> spacings(const Double<N>& x) {
   return (Double<N>)(((exponent < least ? least : exponent) - 23) << 52);
 }
 
+/// Rounds to float32 numbers.
+template <int N>
+inline Double<N> to_floats(const Double<N>& x) {
+  return __builtin_convertvector(__builtin_convertvector(x, Float<N>), Double<N>);
+}
+
+template <int N>
+inline bool any_of(const DoubleMask<N>& condition) {
+  return less<N>(__builtin_convertvector(condition, Float<N>), Float<N>{}) != 0;
+}
+
+/// Computes coordinate_in_plane() of the points x in planes through a.
+template <int N>
+struct CoordinateInPlane {
+  Double<N> value, error;
+
+  CoordinateInPlane(const CrossProducts<N>& normal, const Doubles3<N>& x,
+                    const Doubles3<N>& x_error, const Doubles3<N>& a, int k) {
+    using D = Double<N>;
+    D w{}, terms_error{};
+    for (int other = 1; other <= 2; ++other) {
+      const int i = (k + other) % 3;
+      const D r = x.v[i] - a.v[i], n = normal.value.v[i];
+      w = w + n * r;
+      const D error_of_term = magnitude(n) * x_error.v[i] + kTermRoundings * kRounding *
+                                                                normal.permanent.v[i] *
+                                                                (magnitude(r) + x_error.v[i]);
+      terms_error = terms_error + error_of_term;
+    }
+    const D& permanent = normal.permanent.v[k];
+    const D n_size = magnitude(normal.value.v[k]) - 6 * kRounding * permanent;
+    w = w / normal.value.v[k];
+    value = a.v[k] - w;
+    const D w_error =
+        (terms_error + 8 * kRounding * permanent * magnitude(w)) / n_size * (1 + 16 * kRounding);
+    error = n_size > 0 ? w_error + 4 * kRounding * magnitude(value) + kUnderflow
+                       : D{} + __builtin_inf();
+  }
+};
+
 /// Computes the hit points of N lanes starting at lane i, as TrianglePlaneFilter and
 /// rounded_point() do.
 template <int N>
@@ -34,39 +74,29 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   const D t_min = widened<N>(lanes.t_min + i);
   is_sure &=
       (size > 4 * slope.error) & (t_min >= 0) & (lo >= t_min) & (hi <= widened<N>(lanes.t_max + i));
-  // as PointOnRay, and the terms of coordinate_in_plane()
+  // as PointOnRay
   const D middle = (lo + hi) / 2;
-  Doubles3<N> x, x_error, term, term_error;
+  Doubles3<N> x, x_error;
   for (int k = 0; k < 3; ++k) {
     const D along = middle * d.v[k];
     x.v[k] = o.v[k] + along;
     x_error.v[k] = (hi - lo) * magnitude(d.v[k]) +
                    8 * kRounding * (magnitude(o.v[k]) + magnitude(along)) + kUnderflow;
-    const D r = x.v[k] - a.v[k];
-    term.v[k] = normal.value.v[k] * r;
-    term_error.v[k] =
-        magnitude(normal.value.v[k]) * x_error.v[k] +
-        kTermRoundings * kRounding * normal.permanent.v[k] * (magnitude(r) + x_error.v[k]);
   }
   // as rounded_point() and best_step()
   D largest{}, error{}, axis{};
   Doubles3<N> p, units;
   for (int k = 0; k < 3; ++k) {
-    const int i1 = (k + 1) % 3, i2 = (k + 2) % 3;
-    const D& permanent = normal.permanent.v[k];
-    const D n_size = magnitude(normal.value.v[k]) - 6 * kRounding * permanent;
-    const D w = (term.v[i1] + term.v[i2]) / normal.value.v[k], in_plane = a.v[k] - w;
-    const D w_error =
-        (term_error.v[i1] + term_error.v[i2] + 8 * kRounding * permanent * magnitude(w)) / n_size *
-        (1 + 16 * kRounding);
-    const D in_plane_error = n_size > 0 ? w_error + 4 * kRounding * magnitude(in_plane) + kUnderflow
-                                        : D{} + __builtin_inf();
-    // A bound that is computed from the plane may be NaN; `greater` and `lesser` then return the
-    // other bound.
-    const D below = greater(in_plane - in_plane_error, x.v[k] - x_error.v[k]),
-            above = lesser(in_plane + in_plane_error, x.v[k] + x_error.v[k]);
-    const D least = __builtin_convertvector(__builtin_convertvector(below, Float<N>), D),
-            greatest = __builtin_convertvector(__builtin_convertvector(above, Float<N>), D);
+    D below = x.v[k] - x_error.v[k], above = x.v[k] + x_error.v[k];
+    D least = to_floats<N>(below), greatest = to_floats<N>(above);
+    if (any_of<N>(least != greatest)) {
+      const CoordinateInPlane<N> in_plane(normal, x, x_error, a, k);
+      // These bounds may be NaN; `greater` and `lesser` then return the other bound.
+      below = greater(in_plane.value - in_plane.error, below);
+      above = lesser(in_plane.value + in_plane.error, above);
+      least = to_floats<N>(below);
+      greatest = to_floats<N>(above);
+    }
     is_sure &= least == greatest;
     p.v[k] = least + D{};  // replaces -0 by 0
     units.v[k] = spacings<N>(p.v[k]);
