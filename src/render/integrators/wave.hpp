@@ -56,7 +56,7 @@ class Wave {
   /// Sets the footprints of the camera paths in the group from `first` on.
   void widen(std::size_t first);
   /// Sets the vertices of the group's lanes whose surfaces need no further tests. Returns these
-  /// lanes.
+  /// lanes, and those of paths that end at surfaces that emit nothing.
   [[nodiscard]] Lanes add_simple(std::size_t first);
   /// Sets what textures and vertex colors determine in these lanes. Returns the lanes that need no
   /// further tests, which are opaque and emit nothing.

@@ -58,7 +58,7 @@ Lanes Wave::add_simple(std::size_t first) {
     group.media[lane] = 0;
     group.channel[lane] = paths.channel[i];
   }
-  Lanes simple = 0, varying = 0;
+  Lanes simple = 0, varying = 0, ended = 0;
   for (Lanes rest = group.hits.sure; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto k = static_cast<std::size_t>(lane);
@@ -67,9 +67,13 @@ Lanes Wave::add_simple(std::size_t first) {
     if (!look.is_simple ||
         (is_front ? looks_behind && look.has_open_back && may_get_light(first + k)
                   : !look.has_back) ||
-        paths.media[first + k] != 0 || is_last(first + k))
+        paths.media[first + k] != 0)
       continue;
     const Lanes bit = Lanes{1} << lane;
+    if (is_last(first + k)) {
+      if (step_.depth > 1 && look.is_opaque && !look.shines()) ended |= bit;
+      continue;
+    }
     simple |= bit;
     group.side[lane] = is_front ? 1.0F : -1.0F;
     const BsdfInput& input = *look.constant_but_textures;
@@ -90,7 +94,7 @@ Lanes Wave::add_simple(std::size_t first) {
       alphas_[paths.slot[first + static_cast<std::size_t>(std::countr_zero(rest))]] = 1;
   }
   group.vertices = simple;
-  return simple;
+  return simple | ended;
 }
 
 Lanes Wave::add_varying(Lanes lanes) {
