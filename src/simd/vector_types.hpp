@@ -78,7 +78,8 @@ inline To reinterpreted(const From& from) {
 
 template <class V>
 constexpr bool kIsScalar = __is_same(V, float) || __is_same(V, double) ||
-                           __is_same(V, std::int32_t) || __is_same(V, bool);
+                           __is_same(V, std::int32_t) || __is_same(V, std::uint32_t) ||
+                           __is_same(V, bool);
 
 /// Returns lane i of a vector, or the scalar itself.
 template <class V>

@@ -71,6 +71,7 @@ struct LightNodes {
 
   V center, axis;
   F radius_square, power, cos_o, sin_o, cos_e, is_two_sided;
+  Unsigned<N> children, light;
 
   /// Puts the same node in all lanes.
   explicit LightNodes(const LightNode& node)
@@ -81,7 +82,9 @@ struct LightNodes {
         cos_o(all<N>(node.cos_o)),
         sin_o(all<N>(node.sin_o)),
         cos_e(all<N>(node.cos_e)),
-        is_two_sided(all<N>(node.is_two_sided)) {}
+        is_two_sided(all<N>(node.is_two_sided)),
+        children(Unsigned<N>{} + node.children),
+        light(Unsigned<N>{} + node.light) {}
 
   /// Loads the nodes with these indices.
   LightNodes(const LightNode* nodes, const std::uint32_t (&indices)[N]) {
@@ -96,6 +99,8 @@ struct LightNodes {
     sin_o = columns[9];
     cos_e = columns[10];
     is_two_sided = columns[11];
+    children = reinterpreted<Unsigned<N>>(columns[12]);
+    light = reinterpreted<Unsigned<N>>(columns[13]);
   }
 
   /// An upper bound of the light that arrives at p, except for the BSDF and a constant factor. `n`
@@ -103,25 +108,29 @@ struct LightNodes {
   [[nodiscard]] F importance(const V& p, const V& n) const {
     const F zero{}, one = all<N>(1), least_square = all<N>(LightTreeSpace::kLeast);
     const V to_light = p - center;
-    const F square = dot(to_light, to_light);
-    const V direction = to_light / square_root<N>(square);
-    const F along = dot(axis, direction);
-    const auto to_point =
-        LightAngle<N>::of(smaller_of(is_two_sided != 0 ? magnitude(along) : along, one));
+    const F square = dot(to_light, to_light), inverse = 1 / square_root<N>(square);
     // The angle subtended by the bounding sphere.
-    const F sine_square = smaller_of(F(radius_square / square), one);
+    const F sine_square = smaller_of(F(radius_square * inverse * inverse), one);
     const auto is_inside = square <= radius_square;
     const LightAngle<N> box{square_root<N>(1 - sine_square), square_root<N>(sine_square)};
-    const LightAngle<N> off_cone = to_point - LightAngle<N>{cos_o, sin_o};
-    const F least = is_inside ? one : (off_cone - box).cosine;
-    const auto arriving = LightAngle<N>::of(smaller_of(magnitude(F(dot(direction, n))), one));
-    const F least_arriving = is_inside ? one : (arriving - box).cosine;
-    const F cosines = larger_of(least, zero) * larger_of(least_arriving, zero);
-    const F outside =
-        larger_of(F(power * cosines / larger_of(square, radius_square)), least_square);
-    const auto is_reached = (cosines > 0) & (least >= cos_e);
-    return square > least_square ? (is_reached ? outside : zero)
-                                 : power / larger_of(radius_square, least_square);
+    const auto least_cosine = [&](const LightAngle<N>& angle) {
+      return larger_of(F(is_inside ? one : (angle - box).cosine), zero);
+    };
+    F cosines =
+        least_cosine(LightAngle<N>::of(smaller_of(magnitude(F(dot(to_light, n) * inverse)), one)));
+    auto is_reached = cosines > 0;
+    if (less<N>(all<N>(-1), cos_o) != 0) {  // not for point lights, which emit in all directions
+      const F along = dot(axis, to_light) * inverse;
+      const auto to_point =
+          LightAngle<N>::of(smaller_of(is_two_sided != 0 ? magnitude(along) : along, one));
+      const F least = least_cosine(to_point - LightAngle<N>{cos_o, sin_o});
+      cosines = cosines * least;
+      is_reached = (cosines > 0) & (least >= cos_e);
+    }
+    const auto is_near = square <= least_square;
+    const F light = power * (is_near ? one : cosines) /
+                    larger_of(larger_of(square, radius_square), least_square);
+    return is_near | is_reached ? larger_of(light, is_near ? zero : least_square) : zero;
   }
 };
 
@@ -129,25 +138,36 @@ struct LightNodes {
 /// child may be occluded.
 inline constexpr float kLeastProbability = 0x1p-12F;
 
-/// The probability of selecting the first child of inner nodes, whose children start at these
-/// indices; negative if neither child contributes.
+/// The children of N inner nodes.
 template <int N>
-Float<N> first_probability(const LightNode* nodes, const std::uint32_t (&children)[N],
-                           const Floats3<N>& p, const Floats3<N>& n) {
-  std::uint32_t differences = 0;
-  for (int i = 1; i < N; ++i) differences |= children[i] ^ children[0];
-  const LightNode* pairs = nodes + 1;
-  const bool is_one = differences == 0;
-  const auto first_nodes =
-      is_one ? LightNodes<N>(nodes[children[0]]) : LightNodes<N>(nodes, children);
-  const auto second_nodes =
-      is_one ? LightNodes<N>(pairs[children[0]]) : LightNodes<N>(pairs, children);
-  const Float<N> first = first_nodes.importance(p, n), second = second_nodes.importance(p, n);
-  const Float<N> share = clamped(Float<N>(first / (first + second)), all<N>(kLeastProbability),
-                                 all<N>(1 - kLeastProbability));
-  const auto is_first = first > 0, is_second = second > 0;
-  return is_first ? (is_second ? share : all<N>(1)) : (is_second ? Float<N>{} : all<N>(-1));
-}
+struct LightChildren {
+  LightNodes<N> first, second;
+
+  /// Loads the children, the first of which have these indices.
+  LightChildren(const LightNode* nodes, const std::uint32_t (&indices)[N])
+      : LightChildren(nodes, indices, are_same(indices)) {}
+
+  /// The probability of selecting the first child; negative if neither child contributes.
+  [[nodiscard]] Float<N> first_probability(const Floats3<N>& p, const Floats3<N>& n) const {
+    const Float<N> of_first = first.importance(p, n), of_second = second.importance(p, n);
+    const Float<N> share = clamped(Float<N>(of_first / (of_first + of_second)),
+                                   all<N>(kLeastProbability), all<N>(1 - kLeastProbability));
+    const auto is_first = of_first > 0, is_second = of_second > 0;
+    return is_first ? (is_second ? share : all<N>(1)) : (is_second ? Float<N>{} : all<N>(-1));
+  }
+
+ private:
+  LightChildren(const LightNode* nodes, const std::uint32_t (&indices)[N], bool are_same)
+      : first(are_same ? LightNodes<N>(nodes[indices[0]]) : LightNodes<N>(nodes, indices)),
+        second(are_same ? LightNodes<N>(nodes[indices[0] + 1])
+                        : LightNodes<N>(nodes + 1, indices)) {}
+
+  static bool are_same(const std::uint32_t (&indices)[N]) {
+    std::uint32_t differences = 0;
+    for (int i = 1; i < N; ++i) differences |= indices[i] ^ indices[0];
+    return differences == 0;
+  }
+};
 
 /// The probability of selecting a child with this conditional probability. It doesn't underflow.
 template <int N>
@@ -167,34 +187,28 @@ template <int N>
 LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const Floats3<N>& n,
                             Float<N> u, Lanes wanted) {
   using F = Float<N>;
+  const auto lanes_of = [](const auto& mask) { return less<N>(F{}, mask ? all<N>(1) : F{}); };
   LightChoice<N> choice{.probability = all<N>(1)};
-  std::uint32_t leaves[N] = {}, children[N];
-  for (std::uint32_t& child : children) child = nodes[0].children;
-  Lanes inner = nodes[0].children == 0 ? 0 : wanted;
-  while (inner != 0) {
-    const F first = first_probability<N>(nodes, children, p, n);
+  Unsigned<N> light = Unsigned<N>{} + nodes[0].light, next = Unsigned<N>{} + nodes[0].children;
+  for (Lanes inner = nodes[0].children == 0 ? 0 : wanted; inner != 0;) {
+    // Lanes that are done repeat the work of another lane, so that often all nodes are the same.
+    next = mask_of<N>(inner) ? next : Unsigned<N>{} + lane(next, __builtin_ctz(inner));
+    std::uint32_t indices[N];
+    __builtin_memcpy(indices, &next, sizeof next);
+    const LightChildren<N> children(nodes, indices);
+    const F first = children.first_probability(p, n);
     const auto is_second = u >= first, is_inner = mask_of<N>(inner);
     const F share = is_second ? 1 - first : first;
     u = sampling::reused<N>(u, is_second ? first : F{}, share);
     const F selected = child_probability<N>(choice.probability, first < 0 ? F{} : share);
     choice.probability = is_inner ? selected : choice.probability;
-    const Lanes seconds = less_equal<N>(all<N>(1), is_second ? all<N>(1) : F{});
     // Lanes without light need not descend further.
-    Lanes rest = inner & less<N>(F{}, choice.probability);
-    inner = 0;
-    for (; rest != 0; rest &= rest - 1) {
-      const int i = __builtin_ctz(rest);
-      leaves[i] = children[i] + (seconds >> i & 1U);
-      if (nodes[leaves[i]].children == 0) continue;
-      children[i] = nodes[leaves[i]].children;
-      inner |= Lanes{1} << i;
-    }
-    // Lanes that are done repeat the work of another lane, so that often all nodes are the same.
-    if (inner == 0) break;
-    const std::uint32_t some = children[__builtin_ctz(inner)];
-    for (int i = 0; i < N; ++i) children[i] = (inner >> i & 1U) != 0 ? children[i] : some;
+    const Lanes lit = inner & less<N>(F{}, choice.probability);
+    next = is_second ? children.second.children : children.first.children;
+    light = mask_of<N>(lit) ? (is_second ? children.second.light : children.first.light) : light;
+    inner = lit & lanes_of(next != 0);
   }
-  for (int i = 0; i < N; ++i) choice.light[i] = nodes[leaves[i]].light;
+  __builtin_memcpy(choice.light, &light, sizeof light);
   return choice;
 }
 

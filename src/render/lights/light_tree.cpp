@@ -187,7 +187,7 @@ float LightTree::probability(std::size_t light, const Vec3& p, const Vec3& n) co
   std::uint32_t node = 0;
   for (std::uint64_t trail = trails_[light]; nodes_[node].children != 0; trail >>= 1U) {
     const std::uint32_t children = nodes_[node].children;
-    const float first = first_probability<1>(nodes_.data(), {children}, local, n);
+    const float first = LightChildren<1>(nodes_.data(), {children}).first_probability(local, n);
     if (first < 0) return 0;
     const bool is_second = (trail & 1U) != 0;
     probability = child_probability<1>(probability, is_second ? 1 - first : first);
