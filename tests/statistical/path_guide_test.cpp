@@ -9,6 +9,7 @@
 #include <microtrace/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <ranges>
@@ -124,27 +125,50 @@ GuideRecords records() {
   return all;
 }
 
+const PathGuide::Cell* cell_at(const PathGuide& guide, const Vec3& p, const Vec3& n) {
+  std::array<const PathGuide::Cell*, 1> cell{};
+  guide.find({&p.x, &p.y, &p.z}, {&n.x, &n.y, &n.z}, cell);
+  return cell[0];
+}
+
 TEST(PathGuide, OrderOfRecordsDoesNotMatter) {
   GuideRecords all = records();
   const PathGuide one(all, 1);
   std::ranges::shuffle(all[face_index({.axis = 1})], std::mt19937(5));
   const PathGuide other(all, 1);
   for (const Vec3& p : {Vec3(0), Vec3(3, 0, 0.2F), Vec3(9.9F, 0, 0.9F), Vec3(-5, 0, 7)}) {
-    const PathGuide::Cell* a = one.at(p, {0, 1, 0});
-    const PathGuide::Cell* b = other.at(p, {0, 1, 0});
+    const PathGuide::Cell* a = cell_at(one, p, {0, 1, 0});
+    const PathGuide::Cell* b = cell_at(other, p, {0, 1, 0});
     ASSERT_TRUE(a != nullptr && b != nullptr);
     EXPECT_EQ(a->brightness, b->brightness);
     for (float x = 0.02F; x < 1; x += 0.05F)
       EXPECT_EQ(a->directions.sample({x, 0.3F}), b->directions.sample({x, 0.3F}));
   }
-  EXPECT_EQ(one.at(Vec3(0), {0, -1, 0}), nullptr);
+  EXPECT_EQ(cell_at(one, Vec3(0), {0, -1, 0}), nullptr);
+}
+
+TEST(PathGuide, FindsManyPointsLikeOne) {
+  const PathGuide guide(records(), 1);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> u(-1, 11);
+  std::array<std::array<float, PathGuide::kMostPoints>, 3> p, n;
+  for (auto* columns : {&p, &n}) {
+    for (auto& column : *columns) std::ranges::generate(column, [&] { return u(random) - 2; });
+  }
+  n[1].fill(20);
+  std::array<const PathGuide::Cell*, PathGuide::kMostPoints> cells{};
+  guide.find({p[0].data(), p[1].data(), p[2].data()}, {n[0].data(), n[1].data(), n[2].data()},
+             cells);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    EXPECT_EQ(cells[i], cell_at(guide, {p[0][i], p[1][i], p[2][i]}, {0, 1, 0}));
+  EXPECT_TRUE(std::ranges::any_of(cells, [&](const auto* cell) { return cell != cells[0]; }));
 }
 
 TEST(PathGuide, SamplesHaveTheirPdf) {
   const PathGuide guide(records(), 1);
-  const PathGuide::Cell* cell = guide.at({5, 0, 0.3F}, {0, 1, 0});
+  const PathGuide::Cell* cell = cell_at(guide, {5, 0, 0.3F}, {0, 1, 0});
   ASSERT_NE(cell, nullptr);
-  constexpr int kParts = GuideDistribution::kParts, kSamples = 400000;
+  constexpr int kParts = GuideTable::kEdge, kSamples = 400000;
   constexpr std::size_t kCells = std::size_t{HemisphereBins::kCount} * kParts * kParts;
   const HemisphereBins bins({.axis = 1});
   std::vector<double> counts(kCells), expected(kCells);

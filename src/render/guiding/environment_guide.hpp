@@ -1,17 +1,16 @@
 #pragma once
 /// Samples the light of an environment that reaches a surface.
 
-#include "render/guiding/hemisphere_bins.hpp"
+#include "render/guiding/guide_distribution.hpp"
 #include "render/guiding/lazy_cells.hpp"
 #include "render/guiding/sky_visibility.hpp"
 #include "render/lights/environment_light.hpp"
 
 #include <microtrace/math.hpp>
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace microtrace {
 
@@ -35,17 +34,13 @@ class EnvironmentGuide {
     /// The fraction of a uniform environment's irradiance that arrives, at most 1.
     [[nodiscard]] float openness() const { return openness_; }
 
-    /// Samples a unit direction for u in [0, 1)^2. part() must not be 0.
-    [[nodiscard]] Vec3 sample(const Vec2& u) const;
-    /// The pdf of sample(), per steradian.
-    [[nodiscard]] float pdf(const Vec3& d) const;
+    /// The distribution of directions by visibility. part() must not be 0.
+    [[nodiscard]] const GuideTable& directions() const { return directions_->table(); }
 
    private:
     friend class EnvironmentGuide;
-    SignedAxis about_{};
     float part_ = 0, openness_ = 1;
-    /// Cumulative probabilities of the bins, from 0 to 2^24.
-    std::array<std::uint32_t, HemisphereBins::kCount + 1> bounds_{};
+    std::optional<GuideDistribution> directions_{};
   };
 
   /// The cell for surfaces at p with the unit normal n.

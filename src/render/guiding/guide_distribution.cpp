@@ -1,18 +1,16 @@
 #include "render/guiding/guide_distribution.hpp"
 
-#include "render/guiding/cumulative.hpp"
+#include "render/guiding/guide_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
-#include <numbers>
 
 namespace microtrace {
 namespace {
 
-constexpr std::uint32_t kNumbers = kCumulativeNumbers;
-constexpr auto kCoarsePdf =
-    static_cast<float>(HemisphereBins::kCount / (2 * std::numbers::pi * kNumbers));
-constexpr float kPartPdf = GuideDistribution::kParts * GuideDistribution::kParts / 0x1p24F;
+constexpr int kEdge = GuideTable::kEdge, kParts = kEdge * kEdge;
+constexpr std::size_t kBins = HemisphereBins::kCount;
 
 /// A bin is divided if at least this fraction of the light arrives from it, in at least
 /// kLeastLights directions.
@@ -42,100 +40,101 @@ std::array<double, n> blurred(const std::array<double, n>& values, int rows, int
   return result;
 }
 
-/// Sets the bounds for these weights.
-template <std::size_t n>
-void accumulate(const std::array<double, n>& weights, std::array<std::uint32_t, n + 1>& bounds) {
-  double sum = 0;
-  for (const double weight : weights) sum += weight;
-  accumulate_weights(weights, sum, bounds);
+std::size_t part_at(const Vec2& place) {
+  const auto row = std::min(static_cast<int>(place.x * kEdge), kEdge - 1);
+  const auto column = std::min(static_cast<int>(place.y * kEdge), kEdge - 1);
+  return static_cast<std::size_t>(row * kEdge + column);
 }
 
-std::size_t part_at(const Vec2& place) {
-  constexpr auto kParts = GuideDistribution::kParts;
-  const auto row = std::min(static_cast<int>(place.x * kParts), kParts - 1);
-  const auto column = std::min(static_cast<int>(place.y * kParts), kParts - 1);
-  return static_cast<std::size_t>(row * kParts + column);
-}
+/// The amounts of light from a bin.
+struct BinLight {
+  std::uint64_t sum = 0;
+  std::uint32_t count = 0;
+  std::array<double, kParts> parts{};
+};
 
 }  // namespace
 
-GuideDistribution::GuideDistribution(const SignedAxis& about, std::span<const Light> light)
-    : about_(about) {
-  const HemisphereBins bins(about_);
-  std::array<std::uint64_t, kBins> sums{};
-  for (const Light& l : light) sums[static_cast<std::size_t>(bins.bin(l.d))] += l.amount;
-  std::array<double, kBins> weights{};
-  for (std::size_t i = 0; i < kBins; ++i) weights[i] = static_cast<double>(sums[i]);
-  accumulate(blurred(weights, HemisphereBins::kRows, HemisphereBins::kColumns, true), bounds_);
-  std::uint16_t bin = 0;
-  for (std::size_t i = 0; i < first_.size(); ++i) {
-    while (bounds_[bin + 1U] <= i << 16U) ++bin;
-    first_[i] = bin;
+GuideDistribution::GuideDistribution(const SignedAxis& about, std::span<const Weight> weights)
+    : table_(std::make_unique<GuideTable>()) {
+  GuideTable& table = *table_;
+  table.axis = about.axis;
+  table.sign = about.is_down ? -1.0F : 1.0F;
+  double sum = 0, below = 0;
+  for (const Weight& w : weights) sum += w.weight;
+  std::uint32_t first = 0;
+  for (const Weight& w : weights) {
+    below += w.weight;
+    const auto end = static_cast<std::uint32_t>(below / sum * GuideTable::kSlots + 0.5);
+    const auto bin = static_cast<std::size_t>(w.bin), part = static_cast<std::size_t>(w.part);
+    const auto count = static_cast<std::uint16_t>(end - first);
+    if (part == GuideTable::kWhole) {
+      table.counts[bin] = count;
+    } else {
+      if (part == 0) {
+        table.counts[bin] = static_cast<std::uint16_t>(GuideTable::kFine + fine_.size());
+        fine_.emplace_back();
+      }
+      fine_.back().slots[part] = count;
+    }
+    for (std::uint32_t slot = first; slot < end; ++slot) {
+      table.slots[slot] = GuideSlot{.bin = static_cast<std::uint32_t>(bin),
+                                    .part = static_cast<std::uint32_t>(part),
+                                    .rank = slot - first,
+                                    .count = count}
+                              .packed();
+    }
+    first = end;
   }
-  refine(light, sums);
-}
-
-void GuideDistribution::refine(std::span<const Light> light,
-                               const std::array<std::uint64_t, kBins>& sums) {
-  const HemisphereBins bins(about_);
-  std::array<std::uint32_t, kBins> counts{};
-  std::uint64_t all = 0;
-  for (const Light& l : light) {
-    all += l.amount;
-    ++counts[static_cast<std::size_t>(bins.bin(l.d))];
-  }
-  fine_of_.fill(kNone);
-  std::vector<std::array<double, kParts * kParts>> weights;
-  for (std::size_t i = 0; i < kBins; ++i) {
-    if (sums[i] < all / kFineFraction || counts[i] < kLeastLights) continue;
-    fine_of_[i] = static_cast<std::uint16_t>(weights.size());
-    weights.emplace_back();
-  }
-  for (const Light& l : light) {
-    const HemisphereBins::Place at = bins.place(l.d);
-    const std::uint16_t fine = fine_of_[static_cast<std::size_t>(at.bin)];
-    if (fine != kNone) weights[fine][part_at(at.within)] += static_cast<double>(l.amount);
-  }
-  fine_.resize(weights.size());
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    std::array<double, kParts* kParts> smooth = blurred(weights[i], kParts, kParts, false);
-    double sum = 0;
-    for (const double weight : smooth) sum += weight;
-    for (double& weight : smooth) weight += sum * (0.125 / (kParts * kParts));
-    accumulate(smooth, fine_[i]);
-  }
+  if (!fine_.empty()) table.fine = &fine_[0].slots;
 }
 
 Vec3 GuideDistribution::sample(const Vec2& u) const {
-  const auto number = static_cast<std::uint32_t>(u.x * static_cast<float>(kNumbers));
-  std::size_t bin = first_[number >> 16U];
-  while (bounds_[bin + 1] <= number) ++bin;
-  const std::uint32_t first = bounds_[bin], width = bounds_[bin + 1] - first;
-  const float along = std::min(
-      (static_cast<float>(number - first) + 0.5F) / static_cast<float>(width), 0x1.fffffep-1F);
-  Vec2 place(along, u.y);
-  if (const std::uint16_t fine = fine_of_[bin]; fine != kNone) {
-    const auto& parts = fine_[fine];
-    const auto choice = static_cast<std::uint32_t>(along * static_cast<float>(kNumbers));
-    std::size_t part = 0;
-    while (parts[part + 1] <= choice) ++part;
-    const float within = (static_cast<float>(choice - parts[part]) + 0.5F) /
-                         static_cast<float>(parts[part + 1] - parts[part]);
-    place = {(static_cast<float>(part / kParts) + within) / kParts,
-             (static_cast<float>(part % kParts) + u.y) / kParts};
-  }
-  return HemisphereBins(about_).direction(static_cast<int>(bin), place);
+  GuideLanes<1> lanes{.tables = {table_.get()}, .u = {{u.x}, {u.y}}, .wi = {}, .pdf = {}};
+  sample_guides<1>(lanes);
+  return {lanes.wi[0][0], lanes.wi[1][0], lanes.wi[2][0]};
 }
 
 float GuideDistribution::pdf(const Vec3& d) const {
-  const HemisphereBins::Place at = HemisphereBins(about_).place(d);
-  if (at.bin < 0) return 0;
-  const auto bin = static_cast<std::size_t>(at.bin);
-  const float pdf = static_cast<float>(bounds_[bin + 1] - bounds_[bin]) * kCoarsePdf;
-  const std::uint16_t fine = fine_of_[bin];
-  if (fine == kNone) return pdf;
-  const std::size_t part = part_at(at.within);
-  return pdf * (static_cast<float>(fine_[fine][part + 1] - fine_[fine][part]) * kPartPdf);
+  GuideLanes<1> lanes{.tables = {table_.get()}, .u = {}, .wi = {{d.x}, {d.y}, {d.z}}, .pdf = {}};
+  guide_pdfs<1>(lanes);
+  return lanes.pdf[0];
+}
+
+GuideDistribution distribution_of(const SignedAxis& about, std::span<const ArrivingLight> light) {
+  const HemisphereBins bins(about);
+  std::array<BinLight, kBins> sums;
+  std::uint64_t all = 0;
+  for (const ArrivingLight& l : light) {
+    const HemisphereBins::Place at = bins.place(l.d);
+    BinLight& bin = sums[static_cast<std::size_t>(at.bin)];
+    bin.sum += l.amount;
+    ++bin.count;
+    bin.parts[part_at(at.within)] += static_cast<double>(l.amount);
+    all += l.amount;
+  }
+  std::array<double, kBins> plain{};
+  for (std::size_t i = 0; i < kBins; ++i) plain[i] = static_cast<double>(sums[i].sum);
+  const std::array<double, kBins> smooth =
+      blurred(plain, HemisphereBins::kRows, HemisphereBins::kColumns, true);
+  std::vector<GuideDistribution::Weight> weights;
+  for (std::size_t i = 0; i < kBins; ++i) {
+    const int bin = static_cast<int>(i);
+    if (sums[i].sum == 0 || sums[i].sum < all / kFineFraction || sums[i].count < kLeastLights) {
+      weights.push_back({.bin = bin, .part = GuideTable::kWhole, .weight = smooth[i]});
+      continue;
+    }
+    const std::array<double, kParts> parts = blurred(sums[i].parts, kEdge, kEdge, false);
+    double sum = 0;
+    for (const double part : parts) sum += part;
+    for (int part = 0; part < kParts; ++part) {
+      constexpr double kUniform = 0.125;
+      const double share =
+          (parts[static_cast<std::size_t>(part)] / sum + kUniform / kParts) / (1 + kUniform);
+      weights.push_back({.bin = bin, .part = part, .weight = smooth[i] * share});
+    }
+  }
+  return {about, weights};
 }
 
 }  // namespace microtrace

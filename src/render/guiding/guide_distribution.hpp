@@ -1,29 +1,31 @@
 #pragma once
 #include "render/guiding/hemisphere_bins.hpp"
+#include "render/kernels/guide_lanes.hpp"
 
 #include <microtrace/math.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace microtrace {
 
-/// A pdf of directions on a hemisphere: constant within each of HemisphereBins, or within each of
-/// kParts^2 parts of the bins from which much of the light arrives.
+/// A pdf of directions on a hemisphere, from which kernels sample.
 class GuideDistribution {
  public:
-  static constexpr int kParts = 4;  ///< parts of a fine bin along each side
-
-  /// Light from one direction. The direction must be in the hemisphere.
-  struct Light {
-    Vec3 d;
-    std::uint64_t amount;
+  /// A probability for a bin of HemisphereBins or for a part of one.
+  struct Weight {
+    int bin;
+    int part;  ///< GuideTable::kWhole for the whole bin
+    double weight;
   };
-  /// The sum of the amounts must be positive and below 2^63.
-  GuideDistribution(const SignedAxis& about, std::span<const Light> light);
+  /// Samples directions in proportion to the weights, which are ordered by bin and part. Their sum
+  /// must be positive and finite. A bin that is not whole has weights for all of its parts.
+  GuideDistribution(const SignedAxis& about, std::span<const Weight> weights);
+
+  [[nodiscard]] const GuideTable& table() const { return *table_; }
 
   /// Samples a unit direction for u in [0, 1)^2.
   [[nodiscard]] Vec3 sample(const Vec2& u) const;
@@ -31,22 +33,27 @@ class GuideDistribution {
   [[nodiscard]] float pdf(const Vec3& d) const;
 
   /// The bytes of memory beyond the size of the object.
-  [[nodiscard]] std::size_t memory() const { return fine_.size() * sizeof fine_[0]; }
+  [[nodiscard]] std::size_t memory() const {
+    return sizeof(GuideTable) + fine_.size() * sizeof(Parts);
+  }
 
  private:
-  static constexpr std::size_t kBins = HemisphereBins::kCount;
-  static constexpr std::uint16_t kNone = 0xffff;
+  struct Parts {
+    GuideTable::Parts slots;
+  };
 
-  void refine(std::span<const Light> light, const std::array<std::uint64_t, kBins>& sums);
-
-  SignedAxis about_;
-  /// Cumulative probabilities of the bins, from 0 to 2^24.
-  std::array<std::uint32_t, kBins + 1> bounds_{};
-  /// The bin that contains each multiple of 2^16.
-  std::array<std::uint16_t, 256> first_{};
-  std::array<std::uint16_t, kBins> fine_of_{};  ///< index in fine_; kNone for coarse bins
-  /// Cumulative probabilities of the parts of fine bins, from 0 to 2^24.
-  std::vector<std::array<std::uint32_t, kParts * kParts + 1>> fine_;
+  std::unique_ptr<GuideTable> table_;
+  std::vector<Parts> fine_;
 };
+
+/// Light from one direction.
+struct ArrivingLight {
+  Vec3 d;  ///< must be in the hemisphere
+  std::uint64_t amount;
+};
+/// A pdf in proportion to smoothed sums of light. Bins from which much of the light arrives are
+/// divided. The sum of the amounts must be positive and below 2^63.
+[[nodiscard]] GuideDistribution distribution_of(const SignedAxis& about,
+                                                std::span<const ArrivingLight> light);
 
 }  // namespace microtrace

@@ -1,9 +1,8 @@
 #pragma once
-#include "scene/math/revolutions.hpp"
+#include "render/guiding/hemisphere_lanes.hpp"
 
 #include <microtrace/math.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace microtrace {
@@ -26,30 +25,20 @@ struct SignedAxis {
   }
 };
 
-/// The hemisphere about an axis, divided into bins of equal solid angle: rows of equal height, and
-/// columns of equal longitude.
-class HemisphereBins {
+/// HemisphereLanes for one direction.
+class HemisphereBins : public HemisphereGrid {
  public:
-  static constexpr int kRows = 12, kColumns = 24, kCount = kRows * kColumns;
-
-  explicit HemisphereBins(const SignedAxis& about) : about_(about) {}
+  explicit HemisphereBins(const SignedAxis& about)
+      : lanes_{.axis = about.axis, .sign = about.is_down ? -1.0F : 1.0F} {}
 
   /// The cosine to the axis in the middle of a bin.
   [[nodiscard]] static float cosine(int bin) {
     return (static_cast<float>(bin / kColumns) + 0.5F) / kRows;
   }
-  /// The unit direction at a position in [0, 1)^2 within a bin. Uniform positions give uniform
-  /// directions.
+  /// The unit direction at a position in [0, 1)^2 within a bin.
   [[nodiscard]] Vec3 direction(int bin, const Vec2& place) const {
-    const float height = (static_cast<float>(bin / kColumns) + place.x) / kRows;
-    const SineCosine turn =
-        sin_cos_revolutions((static_cast<float>(bin % kColumns) + place.y) / kColumns);
-    const float range = std::sqrt((1 - height) * (1 + height));
-    Vec3 d;
-    d[about_.axis] = about_.is_down ? -height : height;
-    d[(about_.axis + 1) % 3] = range * turn.cosine;
-    d[(about_.axis + 2) % 3] = range * turn.sine;
-    return d;
+    return lanes_.direction(static_cast<float>(bin / kColumns) + place.x,
+                            static_cast<float>(bin % kColumns) + place.y);
   }
   /// The bin of a unit direction; -1 below the hemisphere.
   [[nodiscard]] int bin(const Vec3& d) const { return place(d).bin; }
@@ -60,18 +49,12 @@ class HemisphereBins {
   };
   /// The inverse of direction().
   [[nodiscard]] Place place(const Vec3& d) const {
-    const float height = about_.is_down ? -d[about_.axis] : d[about_.axis];
-    if (!(height > 0)) return {.bin = -1, .within = Vec2(0)};
-    const float turn = atan2_revolutions(d[(about_.axis + 2) % 3], d[(about_.axis + 1) % 3]);
-    const float y = height * kRows, x = chosen<1>(turn < 0, turn + 1, turn) * kColumns;
-    const int row = std::min(static_cast<int>(y), kRows - 1);
-    const int column = std::min(static_cast<int>(x), kColumns - 1);
-    return {.bin = row * kColumns + column,
-            .within = {y - static_cast<float>(row), x - static_cast<float>(column)}};
+    const auto place = lanes_.place(d);
+    return {.bin = place.bin, .within = {place.row, place.column}};
   }
 
  private:
-  SignedAxis about_;
+  HemisphereLanes<1> lanes_;
 };
 
 }  // namespace microtrace

@@ -52,8 +52,11 @@ class PathGuide::Builder {
                                       [&](const GuideRecord& r) { return r.p[axis] < middle; });
     const auto count = static_cast<std::size_t>(above - records.begin());
     const auto child = static_cast<std::uint32_t>(guide_.nodes_.size());
-    guide_.nodes_[index] = {.split = middle, .child = child, .axis = axis};
-    guide_.nodes_.resize(guide_.nodes_.size() + 2);
+    guide_.nodes_[index] = {
+        .split = middle, .axis = static_cast<std::uint32_t>(axis), .child = child, .cell = kNone};
+    guide_.nodes_.push_back(leaf(child));
+    guide_.nodes_.push_back(leaf(child + 1));
+    guide_.depth_ = std::max(guide_.depth_, depth + 1);
     Box first = box, last = box;
     first.high[axis] = last.low[axis] = middle;
     // A cell that takes its records from the whole box is made before they change their order.
@@ -75,9 +78,9 @@ class PathGuide::Builder {
         light_.push_back({.d = record.d, .amount = amount});
     }
     if (light_.size() < kLeastLit) return;
-    guide_.nodes_[index].child = static_cast<std::uint32_t>(guide_.cells_.size());
+    guide_.nodes_[index].cell = static_cast<std::uint32_t>(guide_.cells_.size());
     guide_.cells_.push_back(
-        {.directions = GuideDistribution(about_, light_),
+        {.directions = distribution_of(about_, light_),
          .brightness = static_cast<float>(mean.mean() / std::numbers::pi / double{brightness_})});
     take_memory(sizeof(Cell) + guide_.cells_.back().directions.memory(), "the guide of paths");
   }
@@ -85,15 +88,33 @@ class PathGuide::Builder {
   PathGuide& guide_;
   float brightness_;
   SignedAxis about_{};
-  std::vector<GuideDistribution::Light> light_;  // working memory of make_cell()
+  std::vector<ArrivingLight> light_;  // working memory of make_cell()
 };
 
-PathGuide::PathGuide(GuideRecords records, float brightness) : nodes_(6) {
-  for (std::uint32_t face = 0; face < 6; ++face) {
-    roots_[face] = face;
-    if (!(brightness > 0)) continue;
+PathGuide::PathGuide(GuideRecords records, float brightness) {
+  for (std::uint32_t face = 0; face < 6; ++face) nodes_.push_back(leaf(face));
+  for (std::uint32_t face = 0; face < 6 && brightness > 0; ++face) {
     Builder(*this, brightness)
         .build(face, {.axis = static_cast<int>(face / 2), .is_down = face % 2 != 0}, records[face]);
+  }
+}
+
+void PathGuide::find(const Columns& p, const Columns& n, std::span<const Cell*> cells) const {
+  std::array<std::uint32_t, kMostPoints> indices{};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    indices[i] =
+        static_cast<std::uint32_t>(face_index(SignedAxis::nearest({n[0][i], n[1][i], n[2][i]})));
+  }
+  // All points descend together, because one alone would wait for memory at every level.
+  for (int level = 0; level < depth_; ++level) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const Node& node = nodes_[indices[i]];
+      indices[i] = node.child + (p[node.axis][i] < node.split ? 0 : 1);
+    }
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::uint32_t cell = nodes_[indices[i]].cell;
+    cells[i] = cell == kNone ? nullptr : &cells_[cell];
   }
 }
 

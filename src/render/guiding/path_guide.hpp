@@ -8,6 +8,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace microtrace {
@@ -42,30 +44,32 @@ class PathGuide {
     float brightness;
   };
 
-  /// The cell of surfaces at p with the unit normal n; null if too little is known.
-  [[nodiscard]] const Cell* at(const Vec3& p, const Vec3& n) const {
-    std::uint32_t index = roots_[face_index(SignedAxis::nearest(n))];
-    while (nodes_[index].axis < 3) {
-      const Node& node = nodes_[index];
-      index = node.child + (p[node.axis] < node.split ? 0 : 1);
-    }
-    const std::uint32_t cell = nodes_[index].child;
-    return cell == kNone ? nullptr : &cells_[cell];
-  }
+  /// A column of numbers for each component of a vector.
+  using Columns = std::array<const float*, 3>;
+  /// Finds the cells of surfaces at points p with the unit normals n; null where too little is
+  /// known. There may be at most kMostPoints.
+  void find(const Columns& p, const Columns& n, std::span<const Cell*> cells) const;
+  static constexpr std::size_t kMostPoints = 16;
 
  private:
   class Builder;
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
+  /// A leaf is its own first child.
   struct Node {
-    float split = 0;
-    std::uint32_t child = kNone;  ///< index of the first of two children; of a cell if axis is 3
-    std::int32_t axis = 3;        ///< axis of the split; 3 for leaves
+    float split;          ///< infinite in leaves
+    std::uint32_t axis;   ///< of the split
+    std::uint32_t child;  ///< index of the first of two children
+    std::uint32_t cell;   ///< kNone if there is none
   };
+  static Node leaf(std::uint32_t index) {
+    return {
+        .split = std::numeric_limits<float>::infinity(), .axis = 0, .child = index, .cell = kNone};
+  }
 
-  std::vector<Node> nodes_;
+  std::vector<Node> nodes_;  // the first one for each SignedAxis is its tree's root
   std::vector<Cell> cells_;
-  std::array<std::uint32_t, 6> roots_{};
+  int depth_ = 0;
 };
 
 }  // namespace microtrace

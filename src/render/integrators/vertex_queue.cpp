@@ -104,7 +104,7 @@ void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Outgoin
   if (guide_ == nullptr)
     kernels_.scatter(scatter_setup(step, features_), scatter_);
   else
-    guided_.scatter(*guide_, kernels_, step, scatter_setup(step, features_),
+    guided_.scatter(*guide_, kernels_, scatter_setup(step, features_),
                     {choices_.points.p, count_}, scatter_);
   const Lanes vertices = (Lanes{1} << count_) - 1;
   const auto& shadow = scatter_.shadow;

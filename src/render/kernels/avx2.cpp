@@ -1,7 +1,9 @@
+#include "render/guiding/guide_table.hpp"
 #include "render/kernels/append.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
+#include "render/kernels/finish_guided.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_punctual.hpp"
@@ -26,5 +28,8 @@ const ShadingKernels kAvx2Shading{"avx2",
                                   look_up_map<8, kShadingLanes>,
                                   sample_map<8, kShadingLanes>,
                                   environment_probabilities<8, kShadingLanes>,
-                                  scatter<8>};
+                                  scatter<8>,
+                                  sample_guides<8, kShadingLanes>,
+                                  guide_pdfs<8, kShadingLanes>,
+                                  finish_guided<8>};
 }

@@ -1,7 +1,9 @@
+#include "render/guiding/guide_table.hpp"
 #include "render/kernels/append.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
+#include "render/kernels/finish_guided.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_punctual.hpp"
@@ -26,5 +28,8 @@ const ShadingKernels kAvx512Shading{"avx512",
                                     look_up_map<16, kShadingLanes>,
                                     sample_map<16, kShadingLanes>,
                                     environment_probabilities<16, kShadingLanes>,
-                                    scatter<16>};
+                                    scatter<16>,
+                                    sample_guides<16, kShadingLanes>,
+                                    guide_pdfs<16, kShadingLanes>,
+                                    finish_guided<16>};
 }

@@ -7,6 +7,7 @@
 
 #include "render/bsdf/features.hpp"
 #include "render/kernels/film_lanes.hpp"
+#include "render/kernels/guide_lanes.hpp"
 #include "render/kernels/light_lanes.hpp"
 #include "render/kernels/map_lanes.hpp"
 #include "render/kernels/surface_lanes.hpp"
@@ -63,9 +64,14 @@ struct alignas(64) ScatterLanes {
   LaneFloats light_wi[3], light[3], light_pdf;
   std::uint32_t key[kShadingLanes], index[kShadingLanes];  ///< key and index of sampling::Sobol
   // Only with ScatterSetup::is_guided:
-  LaneFloats guide_part;       ///< probability of sampling the guide
-  LaneFloats guide_wi[3];      ///< the guide's sample
-  LaneFloats light_guide_pdf;  ///< the guide's pdf of light_wi
+  LaneFloats u[2], chances[2];  ///< the pairs of random numbers `direction_pair` and `lobe_pair`
+  LaneFloats guide_part;        ///< probability of sampling the guide
+  LaneFloats guide_wi[3];       ///< the guide's sample
+  LaneFloats light_guide_pdf;   ///< the guide's pdf of light_wi
+  // For finish_guided():
+  LaneFloats guide_pdf;   ///< the guide's pdf of wi
+  LaneFloats brightness;  ///< of PathGuide::Cell; negative where paths are not guided
+  LaneFloats is_smooth;   ///< 1 if the BSDF samples better than the guide, otherwise 0
   // The kernel sets the members below.
   LaneFloats shadow[3];  ///< contribution of the light if it is not occluded
   LaneFloats pdf;        ///< pdf of the next direction; 0 if there is none
@@ -79,7 +85,8 @@ struct ScatterSetup {
   std::uint32_t direction_pair, lobe_pair;
   float most_survival;  ///< maximum survival probability; 1 disables Russian roulette
   /// True if directions are sampled by a mixture of BSDF and guide. The kernel then neither divides
-  /// next_throughput by the pdf nor plays Russian roulette, and ScatterLanes::pdf is the BSDF's.
+  /// next_throughput by the pdf nor plays Russian roulette, and ScatterLanes::pdf is the BSDF's;
+  /// finish_guided() does the rest.
   bool is_guided = false;
 };
 
@@ -132,6 +139,11 @@ struct ShadingKernels {
   void (*environment_probabilities)(const LightChoiceSetup& setup,
                                     LightChoices<kShadingLanes>& lanes);
   void (*scatter)(const ScatterSetup& setup, ScatterLanes& lanes);
+  /// See guide_table.hpp.
+  void (*sample_guides)(GuideLanes<kShadingLanes>& lanes);
+  void (*guide_pdfs)(GuideLanes<kShadingLanes>& lanes);
+  /// Makes directions that scatter() has sampled those of the mixture of BSDF and guide.
+  void (*finish_guided)(float most_survival, ScatterLanes& lanes);
 };
 
 extern const ShadingKernels kPortableShading;

@@ -1,7 +1,9 @@
+#include "render/guiding/guide_table.hpp"
 #include "render/kernels/append.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
+#include "render/kernels/finish_guided.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_punctual.hpp"
@@ -26,5 +28,8 @@ const ShadingKernels kPortableShading{"portable",
                                       look_up_map<4, kShadingLanes>,
                                       sample_map<4, kShadingLanes>,
                                       environment_probabilities<4, kShadingLanes>,
-                                      scatter<4>};
+                                      scatter<4>,
+                                      sample_guides<4, kShadingLanes>,
+                                      guide_pdfs<4, kShadingLanes>,
+                                      finish_guided<4>};
 }

@@ -82,10 +82,10 @@ class Vertices {
   }
 
   void sample_direction(const ScatterSetup& setup, const Bsdf& bsdf) {
+    if (setup.is_guided) return sample_guided(bsdf);
     const auto sobol = load_sobol<N>(lanes_.key + i_, lanes_.index + i_);
     const auto chances = sobol.pair(setup.lobe_pair);
     const auto u = sobol.pair(setup.direction_pair);
-    if (setup.is_guided) return sample_guided(bsdf, u, chances.x);
     const auto [local, e] = bsdf.sample(u, chances.x);
     const V wi = frame_.to_world(local);
     V next = throughput_ * (e.value / e.pdf);
@@ -107,8 +107,9 @@ class Vertices {
   }
 
   /// Samples the BSDF, or takes the guide's sample.
-  void sample_guided(const Bsdf& bsdf, const Floats2<N>& u, const F& choice) {
-    const F part = load<N>(lanes_.guide_part + i_);
+  void sample_guided(const Bsdf& bsdf) {
+    const F part = load<N>(lanes_.guide_part + i_), choice = load<N>(lanes_.chances[0] + i_);
+    const Floats2<N> u{load<N>(lanes_.u[0] + i_), load<N>(lanes_.u[1] + i_)};
     const auto is_guided = choice < part;
     const F lobe = is_guided ? F{} : sampling::reused<N>(choice, part, 1 - part);
     const auto sample = bsdf.sample(u, lobe);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <utility>
 
 namespace microtrace {
@@ -20,6 +21,40 @@ void put_sample(LightSamples<kShadingLanes>& lanes, int lane, const LightSample&
   lanes.pdf[lane] = sample.pdf;
   lanes.target[lane] = sample.target.value_or(LightSamples<kShadingLanes>::kNoTarget);
 }
+
+/// Directions that are sampled by the visibility of the environment.
+class GuidedDirections {
+ public:
+  explicit GuidedDirections(const std::array<const EnvironmentGuide::Cell*, kShadingLanes>& cells) {
+    const GuideTable* some = nullptr;
+    for (int lane = 0; lane < kShadingLanes; ++lane) {
+      const EnvironmentGuide::Cell* cell = cells[static_cast<std::size_t>(lane)];
+      parts_[lane] = cell != nullptr ? cell->part() : 0;
+      lanes_.tables[lane] = parts_[lane] > 0 ? &cell->directions() : nullptr;
+      if (lanes_.tables[lane] != nullptr) some = lanes_.tables[lane];
+    }
+    is_any_ = some != nullptr;
+    std::ranges::replace(lanes_.tables, nullptr, some);
+  }
+
+  [[nodiscard]] GuideLanes<kShadingLanes>& lanes() { return lanes_; }
+  /// Changes the pdfs of these lanes' directions in the environment's distribution to those in the
+  /// mixture with the guide.
+  void find_pdfs(const ShadingKernels& kernels, Lanes which, LaneFloats& pdfs) {
+    if (!is_any_) return;
+    kernels.guide_pdfs(lanes_);
+    for (; which != 0; which &= which - 1) {
+      const int lane = std::countr_zero(which);
+      if (parts_[lane] > 0)
+        pdfs[lane] = parts_[lane] * lanes_.pdf[lane] + (1 - parts_[lane]) * pdfs[lane];
+    }
+  }
+
+ private:
+  bool is_any_ = false;
+  LaneFloats parts_;
+  GuideLanes<kShadingLanes> lanes_{};
+};
 
 }  // namespace
 
@@ -42,46 +77,66 @@ float Lighting::share(const EnvironmentGuide::Cell* cell) const {
   return std::max(cell->openness(), kLeast) / kLeastMapPart;
 }
 
-float Lighting::pdf(const EnvironmentGuide::Cell* cell, const Vec3& wi, float own) const {
-  if (cell == nullptr || cell->part() == 0) return own;
-  return cell->part() * cell->pdf(wi) + (1 - cell->part()) * own;
+Lighting::Cells Lighting::cells(Lanes lanes, const LightChoices<kShadingLanes>& points) const {
+  Cells cells{};
+  for (Lanes rest = guide_ ? lanes : 0; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    cells[static_cast<std::size_t>(lane)] = cell(got(points.p, lane), got(points.n, lane));
+  }
+  return cells;
 }
 
-void Lighting::sample_environment(int count, const Choices& all_choices,
+void Lighting::sample_environment(const ShadingKernels& kernels, const Cells& cells, int count,
+                                  const Choices& all_choices,
                                   LightSamples<kShadingLanes>& samples) const {
   const LightChoices<kShadingLanes>& choices = all_choices.points;
   const TriangleChoices<kShadingLanes>& triangles = all_choices.triangles;
-  const auto set = [&](int lane, const EnvironmentGuide::Cell* own_cell, const Vec3& wi,
-                       const Vec3& radiance, float own_pdf) {
-    const float all = pdf(own_cell, wi, own_pdf) * choices.probability[lane];
-    put_sample(samples, lane,
-               {.to_light = wi, .is_far = true, .wi = wi, .light = radiance / all, .pdf = all});
-  };
   std::array<Vec2, kShadingLanes> u;
   std::array<int, kShadingLanes> lanes;
-  std::array<const EnvironmentGuide::Cell*, kShadingLanes> cells;
-  std::size_t selected = 0;
+  std::size_t free = 0;
+  Lanes by_visibility = 0;
   for (int lane = 0; lane < count; ++lane) {
-    if (choices.kind[lane] != LightKind::environment) continue;
-    const EnvironmentGuide::Cell* own_cell = cell(got(choices.p, lane), got(choices.n, lane));
-    if (!samples_environment(own_cell)) continue;
-    const Vec2 place(triangles.u[0][lane], triangles.u[1][lane]);
+    const EnvironmentGuide::Cell* own_cell = cells[static_cast<std::size_t>(lane)];
+    if (choices.kind[lane] != LightKind::environment || !samples_environment(own_cell)) continue;
     // The kernel selects the environment with the lowest numbers.
     const float choice = choices.choice[lane] / choices.probability[lane];
     if (own_cell != nullptr && choice < own_cell->part()) {
-      const Vec3 wi = own_cell->sample(place);
-      const EnvironmentLight::Lookup look = environment_->lookup(wi);
-      set(lane, own_cell, wi, look.radiance, look.pdf);
+      by_visibility |= Lanes{1} << lane;
       continue;
     }
-    u[selected] = place;
-    cells[selected] = own_cell;
-    lanes[selected++] = lane;
+    u[free] = Vec2(triangles.u[0][lane], triangles.u[1][lane]);
+    lanes[free++] = lane;
   }
   std::array<EnvironmentLight::Sample, kShadingLanes> found;
-  environment_->sample(std::span(u).first(selected), found);
-  for (std::size_t i = 0; i < selected; ++i)
-    set(lanes[i], cells[i], found[i].wi, found[i].radiance, found[i].pdf);
+  environment_->sample(std::span(u).first(free), found);
+  GuidedDirections guided(cells);
+  const auto set = [&](int lane, const Vec3& wi, const Vec3& radiance, float own_pdf) {
+    put_sample(samples, lane,
+               {.to_light = wi, .is_far = true, .wi = wi, .light = radiance, .pdf = own_pdf});
+    put(guided.lanes().wi, lane, wi);
+  };
+  if (by_visibility != 0) {
+    std::ranges::copy(triangles.u[0], guided.lanes().u[0]);
+    std::ranges::copy(triangles.u[1], guided.lanes().u[1]);
+    kernels.sample_guides(guided.lanes());
+    for (Lanes rest = by_visibility; rest != 0; rest &= rest - 1) {
+      const int lane = std::countr_zero(rest);
+      const Vec3 wi = got(guided.lanes().wi, lane);
+      const EnvironmentLight::Lookup look = environment_->lookup(wi);
+      set(lane, wi, look.radiance, look.pdf);
+    }
+  }
+  Lanes selected = by_visibility;
+  for (std::size_t i = 0; i < free; ++i) {
+    set(lanes[i], found[i].wi, found[i].radiance, found[i].pdf);
+    selected |= Lanes{1} << lanes[i];
+  }
+  guided.find_pdfs(kernels, selected, samples.pdf);
+  for (Lanes rest = selected; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    samples.pdf[lane] *= choices.probability[lane];
+    put(samples.light, lane, got(samples.light, lane) / samples.pdf[lane]);
+  }
 }
 
 void Lighting::sample_near(int lane, Choices& choices, LightSamples<kShadingLanes>& samples) const {
@@ -108,8 +163,9 @@ void Lighting::sample_near(int lane, Choices& choices, LightSamples<kShadingLane
 void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices,
                       LightSamples<kShadingLanes>& samples) const {
   auto& [points, triangles, punctual] = choices;
+  const Cells found = cells((Lanes{1} << count) - 1, points);
   for (int lane = 0; lane < count; ++lane)
-    points.share[lane] = guide_ ? share(cell(got(points.p, lane), got(points.n, lane))) : 1;
+    points.share[lane] = share(found[static_cast<std::size_t>(lane)]);
   kernels.choose_lights(setup_, points);
   for (auto& light : samples.light) std::ranges::fill(light, 0.0F);
   std::ranges::fill(samples.target, LightSamples<kShadingLanes>::kNoTarget);
@@ -126,7 +182,7 @@ void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices
       punctual.group_size[lane] = static_cast<float>(emitters_.far_count());
     }
   }
-  if (samples_environment()) sample_environment(count, choices, samples);
+  if (samples_environment()) sample_environment(kernels, found, count, choices, samples);
   const auto is_any = [](const LaneFloats& selected) {
     return std::ranges::any_of(selected, [](float one) { return one != 0; });
   };
@@ -146,13 +202,16 @@ void Lighting::environment(const ShadingKernels& kernels, Lanes lanes, bool from
     std::ranges::fill(lights.pdf, 0.0F);
     return;
   }
-  std::ranges::fill(origins.share, 1.0F);
-  for (Lanes rest = guide_ ? lanes : 0; rest != 0; rest &= rest - 1) {
-    const int lane = std::countr_zero(rest);
-    const auto* own_cell = cell(got(origins.p, lane), got(origins.n, lane));
+  const Cells found = cells(lanes, origins);
+  for (int lane = 0; lane < kShadingLanes; ++lane) {
+    const EnvironmentGuide::Cell* own_cell = found[static_cast<std::size_t>(lane)];
     origins.share[lane] = share(own_cell);
-    lights.pdf[lane] =
-        samples_environment(own_cell) ? pdf(own_cell, got(lights.d, lane), lights.pdf[lane]) : 0;
+    if (!samples_environment(own_cell)) lights.pdf[lane] = 0;
+  }
+  if (guide_) {
+    GuidedDirections guided(found);
+    std::memcpy(guided.lanes().wi, lights.d, sizeof lights.d);
+    guided.find_pdfs(kernels, lanes, lights.pdf);
   }
   kernels.environment_probabilities(setup_, origins);
   for (int lane = 0; lane < kShadingLanes; ++lane) lights.pdf[lane] *= origins.probability[lane];

@@ -91,11 +91,13 @@ class Lighting {
                                                    const EnvironmentGuide::Cell* cell) const {
     return kind_probabilities<1>(setup_, setup_.space.point<1>(context.p), context.n, share(cell));
   }
-  /// The pdf with which a direction is sampled in this cell if the environment is selected.
-  [[nodiscard]] float pdf(const EnvironmentGuide::Cell* cell, const Vec3& wi, float own) const;
+  /// The guide's cells for the surfaces in some lanes; null in other lanes, and if there is no
+  /// guide.
+  using Cells = std::array<const EnvironmentGuide::Cell*, kShadingLanes>;
+  [[nodiscard]] Cells cells(Lanes lanes, const LightChoices<kShadingLanes>& points) const;
   /// Sets the samples of the lanes for which the environment is selected.
-  void sample_environment(int count, const Choices& choices,
-                          LightSamples<kShadingLanes>& samples) const;
+  void sample_environment(const ShadingKernels& kernels, const Cells& cells, int count,
+                          const Choices& choices, LightSamples<kShadingLanes>& samples) const;
   /// Sets the sample of a lane for which a near light is selected, unless it is a triangle of a
   /// mesh or a punctual light, which kernels sample.
   void sample_near(int lane, Choices& choices, LightSamples<kShadingLanes>& samples) const;
