@@ -194,19 +194,28 @@ class FewTrianglesSearch {
     for (int first = 0; first < count_; first += N) {
       const int rest = count_ - first;
       const Lanes all_queries = rest < N ? (Lanes{1} << rest) - 1 : kAllLanes<N>;
-      for (int k = 0; k < tree_.few->count; ++k) meet(tree_.few->entries[k], first, all_queries);
+      F lo[3], hi[3];
+      for (int axis = 0; axis < 3; ++axis)
+        lo[axis] = load<N>(lo_[axis] + first), hi[axis] = load<N>(hi_[axis] + first);
+      for (int k = 0; k < tree_.few->count; ++k) {
+        const FewTriangles::Entry& triangle = tree_.few->entries[k];
+        // The differences have the signs of exact ones.
+        F gap = greater(F(triangle.lo[0] - hi[0]), F(lo[0] - triangle.hi[0]));
+        for (int axis = 1; axis < 3; ++axis)
+          gap = greater(greater(F(triangle.lo[axis] - hi[axis]), F(lo[axis] - triangle.hi[axis])),
+                        gap);
+        const Lanes near = all_queries & less_equal<N>(gap, F{});
+        if (near != 0) meet(triangle, first, near, CenteredBox<F>(lo, hi));
+      }
     }
   }
 
  private:
   using F = Float<N>;
 
-  void meet(const FewTriangles::Entry& triangle, int first, Lanes lanes) {
-    for (int axis = 0; axis < 3; ++axis) {
-      lanes &= less_equal<N>(all<N>(triangle.lo[axis]), load<N>(hi_[axis] + first)) &
-               less_equal<N>(load<N>(lo_[axis] + first), all<N>(triangle.hi[axis]));
-    }
-    if (lanes == 0) return;
+  /// Adds the triangle to the queries in these lanes, whose boxes overlap its own.
+  void meet(const FewTriangles::Entry& triangle, int first, Lanes lanes,
+            const CenteredBox<F>& boxes) {
     lanes &= ~equal_to<N>(omitted_id_ + first, triangle.id);
     if (triangle.plane_axis >= 0) {
       const F at = load<N>(plane_at_ + first), own = all<N>(triangle.plane_at);
@@ -215,10 +224,7 @@ class FewTrianglesSearch {
                  less_equal<N>(own, at));
     }
     if (lanes == 0) return;
-    F lo[3], hi[3];
-    for (int axis = 0; axis < 3; ++axis)
-      lo[axis] = load<N>(lo_[axis] + first), hi[axis] = load<N>(hi_[axis] + first);
-    lanes = without_clear<N>(lanes, triangle.vertices, CenteredBox<F>(lo, hi));
+    lanes = without_clear<N>(lanes, triangle.vertices, boxes);
     for (; lanes != 0; lanes &= lanes - 1) {
       BoxQuery& query = queries_[first + first_lane(lanes)];
       if (query.count >= 0) adds_too_many(query, triangle.slot);

@@ -30,8 +30,9 @@ class ColumnList {
     for (std::size_t i = 0; i < n; ++i) add(from[i], to[i]);
   }
 
-  void append(const ShadingKernels& kernels, const AppendedLanes& lanes) const {
-    kernels.append(columns_.data(), count_, lanes);
+  /// Returns the number of lanes.
+  std::size_t append(const ShadingKernels& kernels, const AppendedLanes& lanes) const {
+    return static_cast<std::size_t>(kernels.append(columns_.data(), count_, lanes));
   }
 
  private:

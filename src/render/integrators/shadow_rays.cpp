@@ -24,8 +24,7 @@ void ShadowRays::Group::add(const ShadingKernels& kernels, Lanes lanes, const Sh
   list.add(from.samples.target, rays.target);
   list.add(from.slots, rays.slot);
   list.add(from.light, rays.light);
-  list.append(kernels, {.lanes = lanes, .from = 0, .to = count});
-  count += static_cast<std::size_t>(std::popcount(lanes));
+  count += list.append(kernels, {.lanes = lanes, .from = 0, .to = count});
 }
 
 void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from) {

@@ -26,6 +26,7 @@ Lanes lanes_where(const F& condition) {
 
 /// The first n of these lanes.
 Lanes first_of(Lanes lanes, int n) {
+  if (n >= kShadingLanes) return lanes;
   while (std::popcount(lanes) > n) lanes &= ~std::bit_floor(lanes);
   return lanes;
 }
@@ -59,12 +60,12 @@ Lanes VertexQueue::add(Lanes lanes, const Vertices& from) {
   const auto& [group, paths, first] = from;
   if (from_paths_.begins(&paths)) list_paths(paths);
   if (from_group_.begins(&group)) list_group(group);
-  from_paths_.append(kernels_, {.lanes = added, .from = first, .to = to});
+  count_ +=
+      static_cast<int>(from_paths_.append(kernels_, {.lanes = added, .from = first, .to = to}));
   const AppendedLanes in_group{.lanes = added, .from = 0, .to = to};
   from_group_.append(kernels_, in_group);
   if ((group.mapped & added) != 0) from_maps_.append(kernels_, in_group);
   if (features_.index() != 0) from_extensions_.append(kernels_, in_group);
-  count_ += std::popcount(added);
   return lanes & ~added;
 }
 
@@ -104,8 +105,8 @@ void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Outgoin
   if (guide_ == nullptr)
     kernels_.scatter(scatter_setup(step, features_), scatter_);
   else
-    guided_.scatter(*guide_, kernels_, scatter_setup(step, features_),
-                    {choices_.points.p, count_}, scatter_);
+    guided_.scatter(*guide_, kernels_, scatter_setup(step, features_), {choices_.points.p, count_},
+                    scatter_);
   const Lanes vertices = (Lanes{1} << count_) - 1;
   const auto& shadow = scatter_.shadow;
   const Lanes lit =
@@ -145,7 +146,7 @@ void VertexQueue::cross_media(Lanes lanes, const NestedMediaTable& media) {
 }
 
 void VertexQueue::cast_shadows(Lanes lanes, OutgoingRays& outgoing) {
-  cross_media(lanes, outgoing.media);
+  if (!outgoing.media.empty()) cross_media(lanes, outgoing.media);
   copy(origins_.direction, lights_.to_light);
   const Lanes found = outgoing.tracer.leave(lanes, origins_);
   outgoing.shadows.add(kernels_, found,
@@ -169,8 +170,7 @@ void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays
     }
   }
   if (to_paths_.begins(&outgoing.paths)) list_next(outgoing.paths);
-  to_paths_.append(kernels_, {.lanes = found, .from = 0, .to = outgoing.count});
-  outgoing.count += static_cast<std::size_t>(std::popcount(found));
+  outgoing.count += to_paths_.append(kernels_, {.lanes = found, .from = 0, .to = outgoing.count});
 }
 
 VertexQueues::VertexQueues()

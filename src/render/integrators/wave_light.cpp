@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include <glm/geometric.hpp>
 
@@ -34,9 +35,9 @@ void Wave::escape(std::size_t first, Lanes lanes) {
   if (!lighting_->has_environment() || (from_camera && !lighting_->is_seen())) return;
   auto& [lights, origins] = escapes_;
   for (int axis = 0; axis < 3; ++axis) {
-    std::copy_n(paths.d[axis] + first, kShadingLanes, lights.d[axis]);
-    std::copy_n(paths.from_p[axis] + first, kShadingLanes, origins.p[axis]);
-    std::copy_n(paths.from_n[axis] + first, kShadingLanes, origins.n[axis]);
+    std::memcpy(lights.d[axis], paths.d[axis] + first, sizeof(LaneFloats));
+    std::memcpy(origins.p[axis], paths.from_p[axis] + first, sizeof(LaneFloats));
+    std::memcpy(origins.n[axis], paths.from_n[axis] + first, sizeof(LaneFloats));
   }
   lighting_->environment(*kernels_, lanes, from_camera, escapes_);
   for (; lanes != 0; lanes &= lanes - 1) {

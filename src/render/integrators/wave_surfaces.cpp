@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <utility>
 
 namespace microtrace {
@@ -17,10 +18,10 @@ Lanes Wave::meet_surfaces(std::size_t first) {
   HitGroup& hits = group.hits;
   const auto ids = std::span(hits_).subspan(first).first<kShadingLanes>();
   for (int axis = 0; axis < 3; ++axis) {
-    std::copy_n(paths_->o[axis] + first, kShadingLanes, hits.lanes.o[axis]);
-    std::copy_n(paths_->d[axis] + first, kShadingLanes, hits.lanes.d[axis]);
+    std::memcpy(hits.lanes.o[axis], paths_->o[axis] + first, sizeof(LaneFloats));
+    std::memcpy(hits.lanes.d[axis], paths_->d[axis] + first, sizeof(LaneFloats));
   }
-  std::ranges::copy(ids, group.id);
+  std::memcpy(group.id, ids.data(), ids.size_bytes());
   if (step_.depth == 1 && shading_->has_textures()) widen(first);
   shading_->find_points(*kernels_, ids, hits);
   const Lanes simple = add_simple(first);

@@ -6,32 +6,35 @@
 
 namespace microtrace {
 
-/// Copies the given lanes of `from`, in order, to consecutive elements from to[0] on.
 template <int N>
-void append_column(const float* from, Lanes lanes, const int* indices, int count, float* to) {
-  if (lanes == kAllLanes<kShadingLanes>) {
-    __builtin_memcpy(to, from, sizeof(LaneFloats));
-    return;
+int append(const ColumnCopy* columns, int column_count, const AppendedLanes& which) {
+  const auto append_all = [&](const auto& append_column) {
+    for (int i = 0; i < column_count; ++i)
+      append_column(columns[i].from + which.from, columns[i].to + which.to);
+  };
+  const int count = __builtin_popcount(which.lanes);
+  if (which.lanes == kAllLanes<kShadingLanes>) {
+    append_all(
+        [](const float* from, float* to) { __builtin_memcpy(to, from, sizeof(LaneFloats)); });
+    return count;
   }
 #if defined(__AVX512F__)
   if constexpr (N == 16) {
-    const __m512 packed = _mm512_maskz_compress_ps(static_cast<__mmask16>(lanes), load<N>(from));
-    _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1U << count) - 1), packed);
-    return;
+    const auto lanes = static_cast<__mmask16>(which.lanes),
+               first = static_cast<__mmask16>((1U << count) - 1);
+    append_all([&](const float* from, float* to) {
+      _mm512_mask_storeu_ps(to, first, _mm512_maskz_compress_ps(lanes, load<N>(from)));
+    });
+    return count;
   }
 #endif
-  for (int i = 0; i < count; ++i) to[i] = from[indices[i]];
-}
-
-template <int N>
-void append(const ColumnCopy* columns, int column_count, const AppendedLanes& which) {
-  int indices[kShadingLanes], count = 0;
-  for (Lanes lanes = which.lanes; lanes != 0; lanes &= lanes - 1)
-    indices[count++] = __builtin_ctz(lanes);
-  for (int i = 0; i < column_count; ++i) {
-    append_column<N>(columns[i].from + which.from, which.lanes, indices, count,
-                     columns[i].to + which.to);
-  }
+  int indices[kShadingLanes];
+  Lanes rest = which.lanes;
+  for (int i = 0; i < count; ++i, rest &= rest - 1) indices[i] = __builtin_ctz(rest);
+  append_all([&](const float* from, float* to) {
+    for (int i = 0; i < count; ++i) to[i] = from[indices[i]];
+  });
+  return count;
 }
 
 }  // namespace microtrace

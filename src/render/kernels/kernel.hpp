@@ -104,8 +104,8 @@ struct AppendedLanes {
 
 struct ShadingKernels {
   const char* name;
-  /// Appends lanes to all of these arrays.
-  void (*append)(const ColumnCopy* columns, int column_count, const AppendedLanes& which);
+  /// Appends lanes to all of these arrays. Returns the number of lanes.
+  int (*append)(const ColumnCopy* columns, int column_count, const AppendedLanes& which);
   /// Computes sampling::Sobol(keys[i], indices[i]).pair(number) for kShadingLanes samples.
   void (*random_pairs)(const std::uint32_t* keys, const std::uint32_t* indices,
                        std::uint32_t number, float* x, float* y);

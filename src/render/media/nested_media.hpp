@@ -36,6 +36,9 @@ class NestedMediaTable {
   /// Forgets all media, which invalidates all pointers and numbers.
   void clear();
 
+  /// True if no path has been in a medium.
+  [[nodiscard]] bool empty() const { return all_.empty(); }
+
   /// The media with this number; null for 0, which stands for the vacuum.
   [[nodiscard]] const NestedMedia* at(std::uint32_t number) const {
     return number == 0 ? nullptr : &all_[number - 1];
