@@ -48,7 +48,8 @@ set(CMAKE_MODULE_LINKER_FLAGS_INIT "-Wl,-rpath-link,$libraries:$sysroot/lib/aarc
 END
 cmake -S "$source" -B "$folder/build" -G Ninja --toolchain "$folder/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
   -DMICROTRACE_BUILD_TESTS=OFF -DMICROTRACE_BUILD_BENCHMARKS=OFF -DMICROTRACE_WITH_OPENIMAGEIO=OFF \
-  -DMICROTRACE_WITH_MESHOPT=OFF -DMICROTRACE_WITH_DRACO=OFF > "$folder/configure.log"
+  -DMICROTRACE_WITH_MESHOPT=OFF -DMICROTRACE_WITH_DRACO=OFF \
+  -DMICROTRACE_WITH_HTTP=OFF -DMICROTRACE_WITH_MANUAL=OFF > "$folder/configure.log"
 cmake --build "$folder/build" --target microtrace microtrace_codecs microtrace_openexr
 
 modules=$folder/build/src/lib/microtrace
