@@ -12,8 +12,8 @@
 #ifndef MICROTRACE_MICROTRACE_H
 #define MICROTRACE_MICROTRACE_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include <stddef.h> /* NOLINT(modernize-deprecated-headers): C lacks cstddef and cstdint */
+#include <stdint.h> /* NOLINT(modernize-deprecated-headers) */
 
 #if defined(__GNUC__)
 #define MT_API __attribute__((visibility("default")))
