@@ -18,7 +18,8 @@ PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
 }
 
 std::shared_ptr<const PreparedScene::Content> content_for(
-    std::shared_ptr<const PreparedScene::Content> content, const Camera& camera, ImageSize size) {
+    const std::shared_ptr<const PreparedScene::Content>& content, const Camera& camera,
+    ImageSize size) {
   return has_segments(content->scene()) ? content->widened(camera, size) : content;
 }
 

@@ -21,7 +21,8 @@ namespace microtrace {
 
 /// The scene with points and lines widened for this camera.
 [[nodiscard]] std::shared_ptr<const PreparedScene::Content> content_for(
-    std::shared_ptr<const PreparedScene::Content> content, const Camera& camera, ImageSize size);
+    const std::shared_ptr<const PreparedScene::Content>& content, const Camera& camera,
+    ImageSize size);
 
 /// The scene that is rendered: the prepared scene, or a variant with widened points and lines or a
 /// translated origin.

@@ -6,6 +6,8 @@
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/slabs.hpp"
 
+#include <cstddef>
+
 namespace microtrace {
 namespace {
 
@@ -34,8 +36,10 @@ inline bool read_rows(const float* rays, KernelPacket& packet) {
   Float<8> differences{};
   for (int i = 0; i < kPacketRays; i += 8) {
     Float<8> column[8];
-    for (int k = 0; k < 8; ++k)
-      column[k] = load<8>(rays + 8 * (i + k < packet.count ? i + k : packet.count - 1));
+    for (int k = 0; k < 8; ++k) {
+      const std::ptrdiff_t ray = i + k < packet.count ? i + k : packet.count - 1;
+      column[k] = load<8>(rays + 8 * ray);
+    }
     transpose(column);
     for (int axis = 0; axis < 3; ++axis) {
       differences = differences + magnitude(column[axis] - packet.o[axis]);
@@ -93,7 +97,8 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
   }
   if (!read_rows(rays, packet)) return false;
   // The caller's next packet of rays is usually stored directly after this one.
-  for (int i = 0; i < 8 * kPacketRays; i += 16) __builtin_prefetch(rays + 8 * kPacketRays + i);
+  constexpr int kFloats = 8 * kPacketRays;
+  for (int i = kFloats; i < 2 * kFloats; i += 16) __builtin_prefetch(rays + i);
   __builtin_memset(packet.best_id, 0xff, sizeof packet.best_id);
   __builtin_memset(packet.best_slot, 0xff, sizeof packet.best_slot);
   static_assert(kNoPrimitive == 0xffffffff && kNoSlot == 0xffffffff);

@@ -19,10 +19,10 @@ struct PacketView {
   float n[3][kWidth];              ///< e1 x e2
   float height[kWidth];            ///< n . A
   float error[kWidth], size_error[kWidth], height_error[kWidth];
-  Lanes seen[kGroups];  ///< for each group, the triangles that its rays do not certainly miss
-  Lanes two_sided;      ///< triangles for which the sign of n . d is not the same for all rays
+  Lanes seen[kGroups]{};  ///< for each group, the triangles that its rays do not certainly miss
+  Lanes two_sided = 0;    ///< triangles for which the sign of n . d is not the same for all rays
 
-  PacketView(const TriangleBlock& block, const KernelPacket& packet) : seen{}, two_sided(0) {
+  PacketView(const TriangleBlock& block, const KernelPacket& packet) {
     for (int i = 0; i < kWidth; i += N) look_at(block, packet, i);
   }
 

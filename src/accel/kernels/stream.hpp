@@ -231,11 +231,13 @@ class StreamWalk {
     // A number instead of a pointer, because `begin` is null if there is no data of this kind.
     const std::uintptr_t p =
         reinterpret_cast<std::uintptr_t>(slot.begin) + (child & slot.mask) * slot.scale;
+    // NOLINTBEGIN(performance-no-int-to-ptr): only prefetched
     __builtin_prefetch(reinterpret_cast<const void*>(p));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 64));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 128));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 192));
     __builtin_prefetch(reinterpret_cast<const void*>(p + slot.last));
+    // NOLINTEND(performance-no-int-to-ptr)
   }
 
   const TreeView& tree_;

@@ -42,8 +42,8 @@ unsigned entered(const WideNode& node, const LineInterval& ray) {
     Double<N> enter = all_doubles<N>(ray.t_min), leave = all_doubles<N>(ray.t_max);
     unsigned within = (1U << N) - 1;
     for (int axis = 0; axis < 3; ++axis) {
-      const Double<N> from_lo = widened<N>(lo + kWidth * axis + i) - ray.o[axis];
-      const Double<N> from_hi = widened<N>(hi + kWidth * axis + i) - ray.o[axis];
+      const Double<N> from_lo = widened<N>(&lo[kWidth * axis + i]) - ray.o[axis];
+      const Double<N> from_hi = widened<N>(&hi[kWidth * axis + i]) - ray.o[axis];
       const double d = ray.d[axis];
       if (d == 0) {
         within &= lanes_at_most<N>(from_lo, Double<N>{}) & lanes_at_most<N>(Double<N>{}, from_hi);
@@ -98,8 +98,8 @@ void box_distances(const WideNode& node, const double* p, double* squared) {
   for (int i = 0; i < kWidth; i += N) {
     Double<N> sum{};
     for (int axis = 0; axis < 3; ++axis) {
-      const Double<N> below = widened<N>(lo + kWidth * axis + i) - p[axis];
-      const Double<N> above = p[axis] - widened<N>(hi + kWidth * axis + i);
+      const Double<N> below = widened<N>(&lo[kWidth * axis + i]) - p[axis];
+      const Double<N> above = p[axis] - widened<N>(&hi[kWidth * axis + i]);
       const Double<N> gap = greater(greater(below, above), Double<N>{});
       sum += gap * gap;
     }

@@ -6,6 +6,8 @@
 #include "render/bsdf/sheen.hpp"
 #include "render/bsdf/surface.hpp"
 
+#include <cstddef>
+
 namespace microtrace::bsdf {
 
 /// Sheen below a clear coat. The layers' transmittance is the fraction of light that they do not
@@ -100,7 +102,7 @@ class Coating {
         1 - coat_weight_ * (schlick.f0.x * (albedo.f1 - albedo.schlick) + albedo.schlick);
     return coat_weight_ == 0 ? all<N>(1) : left;
   }
-  [[nodiscard]] F mixed(const float* table, const Cell<N>& row, int column) const {
+  [[nodiscard]] F mixed(const float* table, const Cell<N>& row, std::ptrdiff_t column) const {
     F upper{}, lower{};
     for (int k = 0; k < kNodes; ++k) {
       const float* entries = &table[(column * kNodes + k) * kPaddedRows];

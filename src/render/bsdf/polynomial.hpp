@@ -31,9 +31,8 @@ void insert(const float* planes, const Float<N>& x, const Float<N>& y, Float<N> 
   Float<N> row_power = Float<N>{} + 1;
   for (int row = 0; row < n; ++row) {
     Float<N> power = row_power;
-    for (int column = 0; column < n; ++column) {
-      const float* plane = &planes[(row * n + column) * size];
-      for (int i = 0; i < size; ++i) sum[i] += power * plane[i];
+    for (int column = 0; column < n; ++column, planes += size) {
+      for (int i = 0; i < size; ++i) sum[i] += power * planes[i];
       power *= y;
     }
     row_power *= x;

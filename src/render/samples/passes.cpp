@@ -15,7 +15,7 @@ namespace {
 
 /// A tile of 64 pixels with this many samples fills a batch of a Monte Carlo integrator. The first
 /// passes are shorter, so that a first picture appears early and short time limits are met.
-constexpr std::uint32_t kSamplesPerPass = kRandomBatch / (kTileEdge * kTileEdge);
+constexpr std::uint32_t kSamplesPerPass = kRandomBatch / kTilePixels;
 
 void add_tile(const RandomPainter& painter, const PixelRect& tile, const SampleRange& range,
               SampleSums& sums) {

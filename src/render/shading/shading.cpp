@@ -97,8 +97,7 @@ void Shading::find_open_fronts() {
   const std::size_t count = primitives_.count();
   take_memory(count / 8, "the one-sided surfaces of the scene");
   open_fronts_.resize(count / 32 + 1);
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const Entry& entry = entries_[i];
+  for (const Entry& entry : entries_) {
     if (!looks_[entry.look].has_open_back) continue;
     if (entry.mesh == nullptr) {
       open_fronts_.clear();

@@ -43,7 +43,6 @@ inline Doubles3<N> toward_pixel(const Doubles3<N>& corner, const Doubles3<N>& ri
 /// matrix, because extracting lanes is slow.
 template <int N>
 inline void store_rays(const Vec3& o, const LaneRays<N>& lanes, Ray* rays, std::size_t count) {
-  constexpr int kGroup = N < 4 ? N : 4;
   float d[3][N], t_min[N], t_max[N];
   store3<N>(d, 0, lanes.d);
   store<N>(t_min, lanes.t_min);
@@ -60,7 +59,7 @@ inline void store_rays(const Vec3& o, const LaneRays<N>& lanes, Ray* rays, std::
     ray.t_max = t_max[i];
   };
   std::size_t i = 0;
-  if constexpr (kGroup == 4) {
+  if constexpr (N >= 4) {
     for (; i < N && i + 4 <= count; i += 4) {
       Float<4> first[4] = {all<4>(o.x), all<4>(o.y), all<4>(o.z), load<4>(t_min + i)};
       Float<4> second[4] = {load<4>(d[0] + i), load<4>(d[1] + i), load<4>(d[2] + i),
