@@ -8,6 +8,7 @@
 #include <string>
 #include <sys/stat.h>
 #include <system_error>
+#include <utility>
 
 namespace microtrace::io {
 namespace {
@@ -31,8 +32,8 @@ bool lies_within(const std::vector<std::filesystem::path>& folders,
 }
 
 ConfinedReads::ConfinedReads(const std::filesystem::path& own,
-                             const std::vector<std::filesystem::path>& allowed)
-    : folders_(allowed), former_(confinement) {
+                             std::vector<std::filesystem::path> allowed)
+    : folders_(std::move(allowed)), former_(confinement) {
   folders_.push_back(own.empty() ? "." : own);
   confinement = this;
 }

@@ -18,8 +18,7 @@ namespace microtrace::io {
 class ConfinedReads {
  public:
   /// `own` is the scene's folder. An empty path means the current folder.
-  ConfinedReads(const std::filesystem::path& own,
-                const std::vector<std::filesystem::path>& allowed);
+  ConfinedReads(const std::filesystem::path& own, std::vector<std::filesystem::path> allowed);
   ~ConfinedReads();
   ConfinedReads(const ConfinedReads&) = delete;
   ConfinedReads& operator=(const ConfinedReads&) = delete;

@@ -36,6 +36,7 @@ fs::path beside_library() {
     const fs::path folder = folder_of(object->l_name);
     return folder.empty() ? folder : folder / "microtrace";
   }
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): getauxval() returns all values as integers
   const auto program = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
   const fs::path folder = program != nullptr ? folder_of(program) : fs::path();
   return folder.empty() ? folder : (folder / MICROTRACE_MODULES_FROM_PROGRAM).lexically_normal();

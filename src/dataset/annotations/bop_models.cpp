@@ -136,6 +136,7 @@ std::optional<BopModel> bop_model(const Scene& scene, std::uint32_t object, cons
 
   std::string ply = ply_header(positions.size(), triangles.size(), has_normals);
   std::vector<Vec3> stored;
+  stored.reserve(positions.size());
   for (const Vec3& p : positions)
     stored.emplace_back((DVec3(p) - frames.origin(object)) * options.millimeters_per_unit);
   const std::vector<DVec3> points(stored.begin(), stored.end());

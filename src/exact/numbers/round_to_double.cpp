@@ -23,7 +23,7 @@ double round_positive(const Root& t) {
   if (above == below) return bounds.lo;
   // The step to the next number is exact. IEEE 754 rounds as if 2^1024 were the number after the
   // largest one.
-  const double lower = std::bit_cast<double>(below), upper = std::bit_cast<double>(above);
+  const auto lower = std::bit_cast<double>(below), upper = std::bit_cast<double>(above);
   const double step = std::isinf(upper) ? 0x1p971 : upper - lower;
   const Dyadic midpoint = Dyadic(lower) + Dyadic(step) * Dyadic(0.5F);
   const auto order = t <=> rational(midpoint, 1.0F);

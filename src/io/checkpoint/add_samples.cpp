@@ -27,18 +27,29 @@ std::map<std::string, std::string, std::less<>> entries_of(std::string_view iden
   return entries;
 }
 
+std::string with(const std::string& name, const std::string& value) {
+  return "with " + name + " " + value;
+}
+
+std::string without(const std::string& name) {
+  return "without " + name;
+}
+
+std::string contrast(const std::string& theirs, const std::string& ours) {
+  return "made " + theirs + ", not " + ours;
+}
+
 /// Returns a message about the first entry that differs, such as "made with --seed 1, not with
 /// --seed 2".
 std::string difference(std::string_view there, std::string_view here) {
   const auto theirs = entries_of(there), ours = entries_of(here);
   for (const auto& [name, value] : theirs) {
     const auto our = ours.find(name);
-    if (our == ours.end()) return "made with " + name + " " + value + ", not without " + name;
-    if (our->second != value)
-      return "made with " + name + " " + value + ", not with " + name + " " + our->second;
+    if (our == ours.end()) return contrast(with(name, value), without(name));
+    if (our->second != value) return contrast(with(name, value), with(name, our->second));
   }
   for (const auto& [name, value] : ours) {
-    if (!theirs.contains(name)) return "made without " + name + ", not with " + name + " " + value;
+    if (!theirs.contains(name)) return contrast(without(name), with(name, value));
   }
   return "made with the same options in another order";
 }

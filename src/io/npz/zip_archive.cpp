@@ -22,7 +22,7 @@ constexpr std::uint32_t kStored = 0, kDeflated = 8;
 constexpr std::uint16_t kEncrypted = 1;
 
 /// Deflate (RFC 1951) compresses at most 258 bytes to two bits.
-constexpr std::size_t kMaxRatio = 258 * 4;
+constexpr std::size_t kMaxRatio = std::size_t{4} * 258;
 
 std::uint32_t word(ByteReader& reader) {
   return reader.number<std::uint32_t>();
@@ -44,9 +44,10 @@ ZipArchive::ZipArchive(std::string_view bytes, std::string file)
   const std::size_t end = bytes.rfind(kEnd);
   if (end == bytes.npos || bytes.size() - end < kEndSize) fail_as_damaged();
   ByteReader tail(bytes.substr(end + kEnd.size()));
-  const bool is_split = half(tail) != 0 || half(tail) != 0;
+  const std::uint16_t disk = half(tail), first_disk = half(tail);
   const std::uint16_t here = half(tail), count = half(tail);
   const std::size_t size = word(tail), start = word(tail);
+  const bool is_split = disk != 0 || first_disk != 0;
   if (is_split || here != count || start > end || size > end - start) fail_as_damaged();
   ByteReader directory(bytes.substr(start, size));
   for (std::uint16_t i = 0; i < count; ++i) {

@@ -37,7 +37,7 @@ const char* write_plain(const draco::PointAttribute& source, std::size_t points,
 /// resulting floats.
 template <typename Restore>
 const char* write_restored(const draco::PointAttribute& source, std::size_t points,
-                           const MicrotraceDracoAttribute& wanted, std::int8_t stored,
+                           const MicrotraceDracoAttribute& wanted, std::uint32_t stored,
                            Restore&& restore) {
   if (wanted.type != kFloat || source.num_components() != stored) return kUnreadable;
   auto* out = static_cast<char*>(wanted.values);
@@ -45,7 +45,8 @@ const char* write_restored(const draco::PointAttribute& source, std::size_t poin
   std::array<float, 4> floats{};
   for (std::size_t i = 0; i < points; ++i) {
     const draco::AttributeValueIndex index = value_index(source, i);
-    if (index.value() >= source.size() || !source.ConvertValue(index, stored, integers.data()))
+    if (index.value() >= source.size() ||
+        !source.ConvertValue(index, static_cast<std::int8_t>(stored), integers.data()))
       return kUnreadable;
     restore(integers, floats);
     std::memcpy(out, floats.data(), sizeof(float) * wanted.components);
@@ -62,7 +63,7 @@ const char* write_quantized(const draco::PointAttribute& source, std::size_t poi
   const std::vector<float>& least = transform.min_values();
   if (bits < 1 || bits > 30 || least.size() < wanted.components) return kUnreadable;
   const float step = transform.range() / static_cast<float>((1U << bits) - 1);
-  return write_restored(source, points, wanted, static_cast<std::int8_t>(wanted.components),
+  return write_restored(source, points, wanted, wanted.components,
                         [&](const auto& integers, auto& floats) {
                           for (std::size_t k = 0; k < wanted.components; ++k) {
                             floats[k] = static_cast<float>(integers[k]) * step + least[k];

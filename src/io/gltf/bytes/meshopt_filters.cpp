@@ -74,7 +74,7 @@ void decode_exponential(std::string& bytes) {
   for (std::size_t i = 0; i + 4 <= bytes.size(); i += 4) {
     std::uint32_t word = 0;
     std::memcpy(&word, &bytes[i], 4);
-    const int exponent = static_cast<std::int8_t>(word >> 24U);
+    const int exponent = static_cast<std::int32_t>(word) >> 24U;
     const int mantissa = static_cast<std::int32_t>(word << 8U) >> 8U;
     const auto value = static_cast<float>(mantissa * power_of_two(exponent));
     std::memcpy(&bytes[i], &value, 4);

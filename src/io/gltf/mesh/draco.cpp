@@ -81,7 +81,7 @@ struct DracoDecoder::Job {
 
   /// The size of a triangle's three indices, which are stored twice: as decoded, and converted for
   /// the accessor.
-  static constexpr std::size_t kBytesOfTriangle = 3 * 2 * sizeof(std::uint32_t);
+  static constexpr std::size_t kBytesOfTriangle = sizeof(std::uint32_t) * 3 * 2;
 };
 
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <utility>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -92,7 +91,7 @@ std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Mod
     const JsonValue* own = light.value->find("name");
     const bool named = !model.nodes[node.node].name.empty() || own == nullptr;
     result.push_back({.name = names.make(named ? tree.name(node.node) : head(own->string, 64)),
-                      .light = *std::move(in_world)});
+                      .light = *in_world});
   }
   return result;
 }

@@ -60,12 +60,12 @@ auto guarded(const std::string& name, Part&& part) {
 /// All data of the file that don't depend on the pose. The members are declared in the order in
 /// which they are read and checked.
 struct GltfFile::Content {
-  Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder,
+  Content(std::string_view bytes, std::string file_name, const std::filesystem::path& folder,
           const LoadOptions& options)
       : detail(options.detail == SurfaceDetail::usual ? SurfaceDetail::all : options.detail),
         times(options.times),
         clock(times),
-        name(file_name),
+        name(std::move(file_name)),
         container(gltf::open_container(bytes, name)),
         json(container.json, container.is_glb ? name + " (JSON chunk)" : name, kMaxJsonValues,
              RepeatedKeys::last_counts),

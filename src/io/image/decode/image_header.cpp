@@ -7,8 +7,6 @@
 namespace microtrace::io {
 namespace {
 
-using std::string_view_literals::operator""sv;
-
 std::uint32_t byte(std::string_view bytes, std::size_t at) {
   return static_cast<unsigned char>(bytes[at]);
 }
@@ -34,7 +32,7 @@ constexpr Size kNoSize{0, 0};
 
 /// Reads a PNG header (ISO/IEC 15948, section 11.2.2). The chunk IHDR comes first.
 std::optional<Size> png_size(std::string_view bytes) {
-  constexpr std::string_view kFirstChunk = "\0\0\0\x0dIHDR"sv;
+  constexpr std::string_view kFirstChunk("\0\0\0\x0dIHDR", 8);
   if (!bytes.substr(8, 8).starts_with(kFirstChunk.substr(0, bytes.size() - 8))) return kNoSize;
   if (bytes.size() < 33) return std::nullopt;
   return Size{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
@@ -97,12 +95,12 @@ ImageHeader header(ImageFormat format, const std::optional<Size>& size) {
 }  // namespace
 
 ImageHeader read_image_header(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return header(ImageFormat::png, png_size(bytes));
-  if (bytes.starts_with("\xff\xd8\xff"sv)) return header(ImageFormat::jpeg, jpeg_size(bytes));
-  if (bytes.starts_with("RIFF"sv) && bytes.substr(0, 12).ends_with("WEBP"sv)) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return header(ImageFormat::png, png_size(bytes));
+  if (bytes.starts_with("\xff\xd8\xff")) return header(ImageFormat::jpeg, jpeg_size(bytes));
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) {
     return header(ImageFormat::webp, webp_size(bytes));
   }
-  if (bytes.starts_with("\xabKTX 20\xbb\r\n\x1a\n"sv)) {
+  if (bytes.starts_with("\xabKTX 20\xbb\r\n\x1a\n")) {
     return header(ImageFormat::ktx2, ktx2_size(bytes));
   }
   return {};

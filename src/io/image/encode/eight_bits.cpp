@@ -12,6 +12,8 @@ namespace {
 /// Returns round(255 v), where v is first clamped to [0, 1]. Returns 0 for NaN.
 std::uint8_t encode_linear(float v) {
   if (!(v > 0)) return 0;
+  // This rounds wrongly only if the product is the number before 0.5.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return v >= 1 ? 255 : static_cast<std::uint8_t>(v * 255 + 0.5F);
 }
 

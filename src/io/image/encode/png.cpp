@@ -74,6 +74,7 @@ void PngEncoder::encode(const Film& film, const std::function<void(std::string_v
   std::vector<std::uint8_t> row(std::size_t{channels} * film.size().width);
   const std::vector<Note> notes = notes_of(film, false);
   std::vector<MicrotracePngText> texts;
+  texts.reserve(notes.size());
   for (const Note& note : notes) {
     texts.push_back({.keyword = note.name.c_str(), .text = note.text.c_str()});
   }

@@ -67,10 +67,12 @@ Codebooks read_codebooks(const Ktx2& ktx2) {
     return part_of(ktx2.level, u32_at(image, at), u32_at(image, at + 4), kDamaged);
   };
 
-  std::uint64_t at = kHeadSize + std::uint64_t{ktx2.levels} * kImageSize;
-  const Bytes endpoints = part_of(global, at, endpoint_size, kDamaged);
-  const Bytes selectors = part_of(global, at += endpoint_size, selector_size, kDamaged);
-  BitReader tables(part_of(global, at += selector_size, table_size, kDamaged));
+  const std::uint64_t endpoints_at = kHeadSize + std::uint64_t{ktx2.levels} * kImageSize,
+                      selectors_at = endpoints_at + endpoint_size,
+                      tables_at = selectors_at + selector_size;
+  const Bytes endpoints = part_of(global, endpoints_at, endpoint_size, kDamaged);
+  const Bytes selectors = part_of(global, selectors_at, selector_size, kDamaged);
+  BitReader tables(part_of(global, tables_at, table_size, kDamaged));
   Codebooks books{.endpoints = read_endpoints(endpoints, endpoint_count),
                   .selectors = read_selectors(selectors, selector_count),
                   .predictions = read_huffman_table(tables),

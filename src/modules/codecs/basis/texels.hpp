@@ -27,11 +27,10 @@ struct Texels {
   /// Writes channels `first` to `end` - 1 of a block's texels.
   void set_block(std::uint32_t block_x, std::uint32_t block_y, const Block& block,
                  std::uint32_t first, std::uint32_t end) const {
-    const std::uint32_t columns = std::min(width - 4 * block_x, 4U);
-    const std::uint32_t rows = std::min(height - 4 * block_y, 4U);
+    const std::uint32_t x0 = 4 * block_x, y0 = 4 * block_y;
+    const std::uint32_t columns = std::min(width - x0, 4U), rows = std::min(height - y0, 4U);
     for (std::uint32_t y = 0; y < rows; ++y) {
-      unsigned char* texel =
-          samples + (std::size_t{4 * block_y + y} * width + 4 * block_x) * channels;
+      unsigned char* texel = samples + (std::size_t{y0 + y} * width + x0) * channels;
       for (std::uint32_t x = 0; x < columns; ++x, texel += channels) {
         const Color& color = block[4 * y + x];
         std::copy(color.begin() + first, color.begin() + end, texel + first);

@@ -155,7 +155,7 @@ class DataCheck {
   [[nodiscard]] float square_of(std::size_t element, std::size_t components) const {
     float square = 0;
     for (std::size_t k = 0; k < components; ++k) {
-      const float value = elements_.at<float>(element, k);
+      const auto value = elements_.at<float>(element, k);
       square += value * value;
     }
     return square;
@@ -183,7 +183,7 @@ class DataCheck {
     each(1, 0, " of its colors are not between 0 and 1", [this](std::size_t i) {
       bool inside = true;
       for (std::size_t k = 0; k < elements_.components(); ++k) {
-        const float value = elements_.at<float>(i, k);
+        const auto value = elements_.at<float>(i, k);
         inside = inside && value >= 0 && value <= 1;
       }
       return inside;
