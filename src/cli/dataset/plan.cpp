@@ -53,7 +53,7 @@ std::vector<DatasetView> listed_views(const Arguments& arguments) {
 }  // namespace
 
 std::vector<DatasetView> views_of(const Arguments& arguments) {
-  const std::vector<DatasetView> listed = listed_views(arguments);
+  std::vector<DatasetView> listed = listed_views(arguments);
   if (!arguments.frames) return listed;
   if (std::uint64_t{listed.size()} * arguments.frames->count() > kMaxViews)
     refuse_usage("--frames: more than " + std::to_string(kMaxViews) + " views in all");

@@ -83,7 +83,7 @@ Camera ViewRenderer::camera_of(const DatasetView& view, ImageSize size) const {
   if (const auto* direction = std::get_if<View>(&view.camera)) {
     options = {};
     options.orbit = OrbitView{.view = *direction};
-  } else if (const std::string& name = std::get<std::string>(view.camera); !name.empty()) {
+  } else if (const auto& name = std::get<std::string>(view.camera); !name.empty()) {
     options = {};
     options.camera = name;
   }

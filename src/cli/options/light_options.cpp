@@ -8,6 +8,7 @@ namespace {
 
 std::vector<std::string> tone_map_names() {
   std::vector<std::string> names;
+  names.reserve(kToneMaps.size());
   for (const ToneMap map : kToneMaps) names.emplace_back(name_of(map));
   return names;
 }

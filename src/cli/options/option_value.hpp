@@ -35,6 +35,7 @@ struct Choice {
 template <class Choices>
 [[nodiscard]] std::vector<std::string> names_of(const Choices& choices) {
   std::vector<std::string> names;
+  names.reserve(choices.size());
   for (const auto& choice : choices) names.emplace_back(choice.name);
   return names;
 }

@@ -32,9 +32,9 @@ std::optional<Vec3> parse_hex_color(std::string_view digits) {
   if (digits.find_first_not_of("0123456789abcdefABCDEF") != std::string_view::npos)
     return std::nullopt;
   Vec3 color(0);
-  for (glm::length_t i = 0; i < 3; ++i) {
+  const char* begin = digits.data();
+  for (glm::length_t i = 0; i < 3; ++i, begin += 2) {
     std::uint8_t code = 0;
-    const char* begin = digits.data() + 2 * i;
     std::from_chars(begin, begin + 2, code, 16);
     color[i] = static_cast<float>(linear_from_srgb(code / 255.0));
   }

@@ -35,7 +35,7 @@ std::optional<Shutter> shutter_of(const MovingPicture& picture, const Scene& sce
                                               .memory = arguments.load.memory,
                                               .tables = std::move(picture.tables)});
     picture.tables = prepared.tables();
-    return Moment{.scene = std::move(prepared), .camera = std::move(at)};
+    return Moment{.scene = std::move(prepared), .camera = at};
   };
   return Shutter{.times = times, .moment = moment};
 }

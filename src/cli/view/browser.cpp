@@ -9,19 +9,20 @@
 namespace microtrace::cli {
 namespace {
 
-bool is_set(const char* variable) {
+/// Returns the value of an environment variable, or null if it is absent or empty.
+const char* value_of(const char* variable) {
   const char* value = std::getenv(variable);
-  return value != nullptr && *value != 0;
+  return value != nullptr && *value != 0 ? value : nullptr;
 }
 
 }  // namespace
 
 void open_browser(const std::string& address) {
   // BROWSER is also set by remote sessions of editors, whose command opens the local browser.
-  const char* named = std::getenv("BROWSER");
-  const bool has_named = is_set("BROWSER");
-  if (!has_named && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) return;
-  std::string program = has_named ? named : "xdg-open", argument = address;
+  const char* named = value_of("BROWSER");
+  const bool has_desktop = value_of("DISPLAY") != nullptr || value_of("WAYLAND_DISPLAY") != nullptr;
+  if (named == nullptr && !has_desktop) return;
+  std::string program = named != nullptr ? named : "xdg-open", argument = address;
   posix_spawn_file_actions_t actions;
   if (::posix_spawn_file_actions_init(&actions) != 0) return;
   // Messages of browsers would mix with those of the program.

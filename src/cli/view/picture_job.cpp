@@ -29,7 +29,8 @@ Arguments parse_picture(const Arguments& program, const std::string& lines) {
 }
 
 PictureJob make_job(SceneSource& source, Arguments arguments) {
-  PictureJob job{.scene = source.get(arguments.load),
+  std::shared_ptr<const ShownScene> shown_scene = source.get(arguments.load);
+  PictureJob job{.scene = std::move(shown_scene),
                  .arguments = std::move(arguments),
                  .size = {},
                  .camera = {},
