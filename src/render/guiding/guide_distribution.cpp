@@ -1,10 +1,11 @@
 #include "render/guiding/guide_distribution.hpp"
 
+#include "render/guiding/blurred.hpp"
 #include "render/guiding/guide_table.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cmath>
 
 namespace microtrace {
 namespace {
@@ -17,33 +18,17 @@ constexpr std::size_t kBins = HemisphereBins::kCount;
 constexpr std::uint64_t kFineFraction = 96;
 constexpr std::uint32_t kLeastLights = 16;
 
-/// Averages each bin with its neighbors.
-template <std::size_t n>
-std::array<double, n> blurred(const std::array<double, n>& values, int rows, int columns,
-                              bool is_round) {
-  std::array<double, n> result{};
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      double sum = 0;
-      for (int dy = -1; dy <= 1; ++dy) {
-        const int y = std::clamp(row + dy, 0, rows - 1);
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int x = is_round ? (column + dx + columns) % columns
-                                 : std::clamp(column + dx, 0, columns - 1);
-          const int weight = (3 - 2 * std::abs(dx)) * (3 - 2 * std::abs(dy));
-          sum += weight * values[static_cast<std::size_t>(y * columns + x)];
-        }
-      }
-      result[static_cast<std::size_t>(row * columns + column)] = sum;
-    }
-  }
-  return result;
-}
+constexpr BlurredGrid kBinGrid{.rows = HemisphereBins::kRows,
+                               .columns = HemisphereBins::kColumns,
+                               .is_round = true,
+                               .center = 3};
+constexpr BlurredGrid kPartGrid{.rows = kEdge, .columns = kEdge, .is_round = false, .center = 3};
 
 std::size_t part_at(const Vec2& place) {
-  const auto row = std::min(static_cast<int>(place.x * kEdge), kEdge - 1);
-  const auto column = std::min(static_cast<int>(place.y * kEdge), kEdge - 1);
-  return static_cast<std::size_t>(row * kEdge + column);
+  const auto within = [](float x) {
+    return std::min(static_cast<std::size_t>(x * kEdge), std::size_t{kEdge - 1});
+  };
+  return within(place.x) * kEdge + within(place.y);
 }
 
 /// The amounts of light from a bin.
@@ -65,7 +50,7 @@ GuideDistribution::GuideDistribution(const SignedAxis& about, std::span<const We
   std::uint32_t first = 0;
   for (const Weight& w : weights) {
     below += w.weight;
-    const auto end = static_cast<std::uint32_t>(below / sum * GuideTable::kSlots + 0.5);
+    const auto end = static_cast<std::uint32_t>(std::lround(below / sum * GuideTable::kSlots));
     const auto bin = static_cast<std::size_t>(w.bin), part = static_cast<std::size_t>(w.part);
     const auto count = static_cast<std::uint16_t>(end - first);
     if (part == GuideTable::kWhole) {
@@ -115,8 +100,7 @@ GuideDistribution distribution_of(const SignedAxis& about, std::span<const Arriv
   }
   std::array<double, kBins> plain{};
   for (std::size_t i = 0; i < kBins; ++i) plain[i] = static_cast<double>(sums[i].sum);
-  const std::array<double, kBins> smooth =
-      blurred(plain, HemisphereBins::kRows, HemisphereBins::kColumns, true);
+  const std::array<double, kBins> smooth = blurred(plain, kBinGrid);
   std::vector<GuideDistribution::Weight> weights;
   for (std::size_t i = 0; i < kBins; ++i) {
     const int bin = static_cast<int>(i);
@@ -124,7 +108,7 @@ GuideDistribution distribution_of(const SignedAxis& about, std::span<const Arriv
       weights.push_back({.bin = bin, .part = GuideTable::kWhole, .weight = smooth[i]});
       continue;
     }
-    const std::array<double, kParts> parts = blurred(sums[i].parts, kEdge, kEdge, false);
+    const std::array<double, kParts> parts = blurred(sums[i].parts, kPartGrid);
     double sum = 0;
     for (const double part : parts) sum += part;
     for (int part = 0; part < kParts; ++part) {

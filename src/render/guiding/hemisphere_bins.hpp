@@ -4,6 +4,7 @@
 #include <microtrace/math.hpp>
 
 #include <cmath>
+#include <cstddef>
 
 namespace microtrace {
 
@@ -25,6 +26,11 @@ struct SignedAxis {
   }
 };
 
+/// A number from 0 to 5 for each SignedAxis.
+[[nodiscard]] inline std::size_t face_index(const SignedAxis& axis) {
+  return 2 * static_cast<std::size_t>(axis.axis) + (axis.is_down ? 1 : 0);
+}
+
 /// HemisphereLanes for one direction.
 class HemisphereBins : public HemisphereGrid {
  public:
@@ -33,12 +39,14 @@ class HemisphereBins : public HemisphereGrid {
 
   /// The cosine to the axis in the middle of a bin.
   [[nodiscard]] static float cosine(int bin) {
-    return (static_cast<float>(bin / kColumns) + 0.5F) / kRows;
+    const int row = bin / kColumns;
+    return (static_cast<float>(row) + 0.5F) / kRows;
   }
   /// The unit direction at a position in [0, 1)^2 within a bin.
   [[nodiscard]] Vec3 direction(int bin, const Vec2& place) const {
-    return lanes_.direction(static_cast<float>(bin / kColumns) + place.x,
-                            static_cast<float>(bin % kColumns) + place.y);
+    const int row = bin / kColumns, column = bin % kColumns;
+    return lanes_.direction(static_cast<float>(row) + place.x,
+                            static_cast<float>(column) + place.y);
   }
   /// The bin of a unit direction; -1 below the hemisphere.
   [[nodiscard]] int bin(const Vec3& d) const { return place(d).bin; }

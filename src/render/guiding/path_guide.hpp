@@ -24,10 +24,6 @@ struct GuideRecord {
 /// The records of vertices by the SignedAxis that is nearest to their normal.
 using GuideRecords = std::array<std::vector<GuideRecord>, 6>;
 
-[[nodiscard]] inline std::size_t face_index(const SignedAxis& axis) {
-  return static_cast<std::size_t>(2 * axis.axis + (axis.is_down ? 1 : 0));
-}
-
 /// For parts of space, and each SignedAxis toward which surfaces face, a pdf of directions in
 /// proportion to the light that arrives times the cosine. Space is divided by binary trees, finely
 /// where many training paths had vertices (T. Müller, M. Gross and J. Novák, Practical path guiding

@@ -1,5 +1,6 @@
 #include "render/guiding/sky_visibility.hpp"
 
+#include "render/guiding/blurred.hpp"
 #include "render/sampling/hash.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/shading/transmittance.hpp"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -28,26 +28,12 @@ constexpr std::uint32_t kRaysPerBin = 2;
 
 using Values = std::array<float, HemisphereBins::kCount>;
 
-/// Averages each bin with its neighbors, because few rays per bin miss light near edges.
-Values blurred(const Values& values) {
-  constexpr int kRows = HemisphereBins::kRows, kColumns = HemisphereBins::kColumns;
-  Values result{};
-  for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kColumns; ++column) {
-      float sum = 0;
-      for (int dy = -1; dy <= 1; ++dy) {
-        const int y = std::clamp(row + dy, 0, kRows - 1);
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int x = (column + dx + kColumns) % kColumns;
-          const int weight = (2 - std::abs(dx)) * (2 - std::abs(dy));
-          sum += static_cast<float>(weight) * values[static_cast<std::size_t>(y * kColumns + x)];
-        }
-      }
-      result[static_cast<std::size_t>(row * kColumns + column)] = sum / 16;
-    }
-  }
-  return result;
-}
+/// Few rays per bin miss light near edges, so neighbors are averaged.
+constexpr BlurredGrid kBinGrid{.rows = HemisphereBins::kRows,
+                               .columns = HemisphereBins::kColumns,
+                               .is_round = true,
+                               .center = 2};
+constexpr float kBlurredWeight = 16;  // the sum of the weights
 
 /// The point in float32. Margins may exceed its range.
 Vec3 in_range(const DVec3& p) {
@@ -116,7 +102,7 @@ float SkyVisibility::light_along(const Ray& ray, const std::optional<Hit>& hit) 
 
 std::size_t SkyVisibility::index(const Vec3& p, const Vec3& n) const {
   const SignedAxis about = SignedAxis::nearest(n);
-  std::size_t index = static_cast<std::size_t>(2 * about.axis + (about.is_down ? 1 : 0));
+  std::size_t index = face_index(about);
   for (int axis = 0; axis < 3; ++axis) {
     const double place = (double{p[axis]} - low_[axis]) / cell_size_;
     const auto last = static_cast<double>(size_[axis] - 1);
@@ -213,9 +199,9 @@ std::unique_ptr<const SkyVisibility::Cell> SkyVisibility::fill(std::size_t index
   }
   for (std::size_t bin = 0; bin < light.sum.size(); ++bin)
     light.sum[bin] /= std::max(light.rays[bin], 1.0F);
-  const Values part = blurred(light.sum);
-  for (std::size_t bin = 0; bin < part.size(); ++bin)
-    cell->bins[bin] = static_cast<std::uint8_t>(255 * part[bin] + 0.5F);
+  const Values sums = blurred(light.sum, kBinGrid);
+  for (std::size_t bin = 0; bin < sums.size(); ++bin)
+    cell->bins[bin] = static_cast<std::uint8_t>(std::lround(255 * (sums[bin] / kBlurredWeight)));
   return cell;
 }
 

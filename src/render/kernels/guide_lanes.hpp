@@ -25,7 +25,7 @@ struct GuideTable {
 
 /// Directions that are sampled from tables.
 template <int width>
-struct alignas(width * sizeof(float)) GuideLanes {
+struct alignas(64) GuideLanes {
   const GuideTable* tables[width];  ///< never null
   float u[2][width];                ///< random numbers in [0, 1)
   float wi[3][width];               ///< unit directions; set by sample_guides()
