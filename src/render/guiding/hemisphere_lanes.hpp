@@ -14,10 +14,11 @@ struct HemisphereGrid {
 inline namespace MICROTRACE_KERNELS {
 
 template <int N>
-struct HemisphereLanes : HemisphereGrid {
+struct HemisphereLanes {
   using F = Float<N>;
   using I = Int<N>;
   using V = Floats3<N>;
+  static constexpr int kRows = HemisphereGrid::kRows, kColumns = HemisphereGrid::kColumns;
 
   I axis;  ///< 0 to 2
   F sign;  ///< -1 for the negative direction of the axis, otherwise 1

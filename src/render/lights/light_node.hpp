@@ -128,9 +128,9 @@ struct LightNodes {
       is_reached = (cosines > 0) & (least >= cos_e);
     }
     const auto is_near = square <= least_square;
-    const F light = power * (is_near ? one : cosines) /
+    const F bound = power * (is_near ? one : cosines) /
                     larger_of(larger_of(square, radius_square), least_square);
-    return is_near | is_reached ? larger_of(light, is_near ? zero : least_square) : zero;
+    return is_near | is_reached ? larger_of(bound, is_near ? zero : least_square) : zero;
   }
 };
 
