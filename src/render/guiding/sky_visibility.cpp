@@ -29,7 +29,7 @@ constexpr std::uint32_t kRaysPerBin = 2;
 using Values = std::array<float, HemisphereBins::kCount>;
 
 /// Few rays per bin miss light near edges, so neighbors are averaged.
-constexpr BlurredGrid kBinGrid{.rows = HemisphereBins::kRows,
+constexpr BlurredGrid kSkyGrid{.rows = HemisphereBins::kRows,
                                .columns = HemisphereBins::kColumns,
                                .is_round = true,
                                .center = 2};
@@ -199,7 +199,7 @@ std::unique_ptr<const SkyVisibility::Cell> SkyVisibility::fill(std::size_t index
   }
   for (std::size_t bin = 0; bin < light.sum.size(); ++bin)
     light.sum[bin] /= std::max(light.rays[bin], 1.0F);
-  const Values sums = blurred(light.sum, kBinGrid);
+  const Values sums = blurred(light.sum, kSkyGrid);
   for (std::size_t bin = 0; bin < sums.size(); ++bin)
     cell->bins[bin] = static_cast<std::uint8_t>(std::lround(255 * (sums[bin] / kBlurredWeight)));
   return cell;
