@@ -254,6 +254,12 @@ inline bool any(const Mask& mask) {
   }
 }
 
+/// Returns the lanes in which a comparison of float32 or integer vectors is true.
+template <int N, class Mask>
+inline Lanes true_lanes(const Mask& mask) {
+  return less<N>(Float<N>{}, mask ? all<N>(1) : Float<N>{});
+}
+
 template <class Mask>
 inline auto negated(const Mask& mask) {
   return mask == 0;

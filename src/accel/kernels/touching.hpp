@@ -197,6 +197,7 @@ class FewTrianglesSearch {
       F lo[3], hi[3];
       for (int axis = 0; axis < 3; ++axis)
         lo[axis] = load<N>(lo_[axis] + first), hi[axis] = load<N>(hi_[axis] + first);
+      const CenteredBox<F> boxes(lo, hi);
       for (int k = 0; k < tree_.few->count; ++k) {
         const FewTriangles::Entry& triangle = tree_.few->entries[k];
         // The differences have the signs of exact ones.
@@ -205,7 +206,7 @@ class FewTrianglesSearch {
           gap = greater(greater(F(triangle.lo[axis] - hi[axis]), F(lo[axis] - triangle.hi[axis])),
                         gap);
         const Lanes near = all_queries & less_equal<N>(gap, F{});
-        if (near != 0) meet(triangle, first, near, CenteredBox<F>(lo, hi));
+        if (near != 0) meet(triangle, first, near, boxes);
       }
     }
   }

@@ -10,6 +10,9 @@ struct BlurredGrid {
   int rows, columns;
   bool is_round;
   int center;  ///< weight of a number along each axis; its neighbors have a weight of 1
+
+  /// The sum of the weights of a number and its neighbors.
+  [[nodiscard]] constexpr int weight() const { return (center + 2) * (center + 2); }
 };
 
 /// Replaces each number by a weighted sum of itself and its neighbors. Those at an edge are their

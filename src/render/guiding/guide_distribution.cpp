@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-constexpr int kEdge = GuideTable::kEdge, kParts = kEdge * kEdge;
+constexpr int kEdge = GuideTable::kEdge, kParts = GuideTable::kParts;
 constexpr std::size_t kBins = HemisphereBins::kCount;
 
 /// A bin is divided if at least this fraction of the light arrives from it, in at least

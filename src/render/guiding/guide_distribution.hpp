@@ -4,6 +4,7 @@
 
 #include <microtrace/math.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -45,6 +46,18 @@ class GuideDistribution {
   std::unique_ptr<GuideTable> table_;
   std::vector<Parts> fine_;
 };
+
+/// Replaces null tables by one of the others, because the kernels read the tables of all lanes.
+/// Returns false if all are null.
+template <int width>
+[[nodiscard]] bool complete_tables(GuideLanes<width>& lanes) {
+  const auto is_there = [](const GuideTable* table) { return table != nullptr; };
+  const auto* const some = std::ranges::find_if(lanes.tables, is_there);
+  if (some == std::ranges::end(lanes.tables)) return false;
+  const GuideTable* const table = *some;
+  std::ranges::replace(lanes.tables, nullptr, table);
+  return true;
+}
 
 /// Light from one direction.
 struct ArrivingLight {

@@ -27,7 +27,6 @@ inline namespace MICROTRACE_KERNELS {
 /// The pdf of one slot of a whole bin.
 inline constexpr auto kGuideSlotPdf =
     static_cast<float>(GuideTable::kBins / (2 * std::numbers::pi * GuideTable::kSlots));
-inline constexpr int kGuideParts = GuideTable::kEdge * GuideTable::kEdge;
 
 template <int N>
 HemisphereLanes<N> guide_hemispheres(const GuideTable* const* tables) {
@@ -68,7 +67,7 @@ void sample_guides_from(GuideLanes<width>& lanes, int i) {
   store3<N>(
       lanes.wi, i,
       guide_hemispheres<N>(tables).direction(
-          to_float<N>(line) + row, to_float<N>(I(bin - line * GuideTable::kColumns)) + column));
+          to_float<N>(line) + row, to_float<N>(I(bin - line * HemisphereGrid::kColumns)) + column));
 }
 
 /// Samples directions for all lanes.
@@ -96,7 +95,7 @@ void guide_pdfs_from(GuideLanes<width>& lanes, int i) {
     // Directions below the hemisphere are in the bin after the last one, which has no slots.
     std::uint32_t count = table.counts[bins[k] < 0 ? GuideTable::kBins : bins[k]];
     if (count >= GuideTable::kFine)
-      count = kGuideParts * table.fine[count - GuideTable::kFine][parts[k]];
+      count = GuideTable::kParts * table.fine[count - GuideTable::kFine][parts[k]];
     slots[k] = static_cast<float>(count);
   }
   store<N>(lanes.pdf + i, load<N>(slots) * kGuideSlotPdf);

@@ -2,14 +2,11 @@
 /// The hemisphere about a coordinate axis, for N lanes. It is divided into bins of equal solid
 /// angle: rows of equal height, and columns of equal longitude.
 
+#include "render/kernels/guide_lanes.hpp"
 #include "simd/revolutions.hpp"
 #include "simd/vector3.hpp"
 
 namespace microtrace {
-
-struct HemisphereGrid {
-  static constexpr int kRows = 12, kColumns = 24, kCount = kRows * kColumns;
-};
 
 inline namespace MICROTRACE_KERNELS {
 

@@ -33,7 +33,6 @@ constexpr BlurredGrid kSkyGrid{.rows = HemisphereBins::kRows,
                                .columns = HemisphereBins::kColumns,
                                .is_round = true,
                                .center = 2};
-constexpr float kBlurredWeight = 16;  // the sum of the weights
 
 /// The point in float32. Margins may exceed its range.
 Vec3 in_range(const DVec3& p) {
@@ -201,7 +200,8 @@ std::unique_ptr<const SkyVisibility::Cell> SkyVisibility::fill(std::size_t index
     light.sum[bin] /= std::max(light.rays[bin], 1.0F);
   const Values sums = blurred(light.sum, kSkyGrid);
   for (std::size_t bin = 0; bin < sums.size(); ++bin)
-    cell->bins[bin] = static_cast<std::uint8_t>(std::lround(255 * (sums[bin] / kBlurredWeight)));
+    cell->bins[bin] =
+        static_cast<std::uint8_t>(std::lround(255 * (sums[bin] / float(kSkyGrid.weight()))));
   return cell;
 }
 

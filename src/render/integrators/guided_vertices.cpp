@@ -1,8 +1,9 @@
 #include "render/integrators/guided_vertices.hpp"
 
-#include <algorithm>
+#include "render/kernels/lane_access.hpp"
+
 #include <array>
-#include <cstring>
+#include <span>
 
 namespace microtrace {
 namespace {
@@ -14,11 +15,6 @@ constexpr float kPart = 0.35F;
 bool is_smooth(const SurfaceLanes& surface, int lane, bool refracts) {
   constexpr float kLeastRoughness = 0.3F;
   return surface.roughness[lane] < kLeastRoughness && (refracts || surface.metallic[lane] > 0.5F);
-}
-
-template <class Lanes>
-void copy(Lanes& to, const Lanes& from) {
-  std::memcpy(&to, &from, sizeof to);
 }
 
 }  // namespace
@@ -52,7 +48,6 @@ bool GuidedVertices::find_tables(const PathGuide& guide, bool refract, const Poi
   guide.find({points.p[0], points.p[1], points.p[2]},
              {lanes.frame_n[0], lanes.frame_n[1], lanes.frame_n[2]},
              std::span(cells).first(static_cast<std::size_t>(points.count)));
-  const GuideTable* some = nullptr;
   for (int lane = 0; lane < kShadingLanes; ++lane) {
     const bool smooth = is_smooth(lanes.surface, lane, refract);
     const PathGuide::Cell* cell = smooth ? nullptr : cells[static_cast<std::size_t>(lane)];
@@ -60,10 +55,8 @@ bool GuidedVertices::find_tables(const PathGuide& guide, bool refract, const Poi
     lanes.guide_part[lane] = cell != nullptr ? kPart : 0;
     lanes.brightness[lane] = cell != nullptr ? cell->brightness : -1;
     directions_.tables[lane] = cell != nullptr ? &cell->directions.table() : nullptr;
-    if (cell != nullptr) some = directions_.tables[lane];
   }
-  std::ranges::replace(directions_.tables, nullptr, some);
-  return some != nullptr;
+  return complete_tables(directions_);
 }
 
 }  // namespace microtrace

@@ -26,14 +26,8 @@ Lanes lanes_where(const F& condition) {
 
 /// The first n of these lanes.
 Lanes first_of(Lanes lanes, int n) {
-  if (n >= kShadingLanes) return lanes;
   while (std::popcount(lanes) > n) lanes &= ~std::bit_floor(lanes);
   return lanes;
-}
-
-template <std::size_t n>
-void copy(LaneFloats (&to)[n], const LaneFloats (&from)[n]) {
-  std::memcpy(to, from, sizeof to);
 }
 
 }  // namespace

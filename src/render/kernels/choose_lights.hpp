@@ -86,7 +86,7 @@ void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lane
   const auto is_environment = choice < kinds.environment;
   const auto is_far = (kinds.near == 0) | (beyond < kinds.far);
   const auto is_near = negated(is_environment) & negated(is_far);
-  const Lanes near = less<N>(F{}, is_near ? all<N>(1) : F{});
+  const Lanes near = true_lanes<N>(is_near);
   LightChoice<N> chosen{};
   if (near != 0) chosen = choose_near<N>(setup.nodes, p, n, of_near, near);
   store<N>(lanes.choice + i, is_environment ? choice : is_far ? beyond / kinds.far : of_near);

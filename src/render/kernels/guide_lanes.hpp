@@ -5,14 +5,20 @@
 
 namespace microtrace {
 
+/// The bins of HemisphereLanes.
+struct HemisphereGrid {
+  static constexpr int kRows = 12, kColumns = 24, kCount = kRows * kColumns;
+};
+
 /// A pdf of directions on the hemisphere about a coordinate axis: constant within each bin of
-/// HemisphereLanes, or within each of kEdge^2 parts of the bins from which much of the light
+/// HemisphereLanes, or within each of kParts parts of the bins from which much of the light
 /// arrives. Probabilities are multiples of 1 / kSlots.
 struct GuideTable {
-  static constexpr int kSlots = 512, kColumns = 24, kBins = 288, kEdge = 4;
-  static constexpr std::uint32_t kWhole = 16;  ///< see GuideSlot
+  static constexpr int kSlots = 512, kBins = HemisphereGrid::kCount;
+  static constexpr int kEdge = 4, kParts = kEdge * kEdge;
+  static constexpr std::uint32_t kWhole = kParts;  ///< see GuideSlot
   static constexpr std::uint16_t kFine = 0x8000;
-  using Parts = std::uint16_t[kEdge * kEdge];
+  using Parts = std::uint16_t[kParts];
 
   std::int32_t axis = 2;  ///< 0 to 2
   float sign = 1;         ///< -1 for the negative direction of the axis

@@ -1,12 +1,20 @@
 #pragma once
-/// Loads and stores the values of single paths in lanes. The kernels' own translation units must
-/// not include this header.
+/// Copies lanes, and loads and stores the values of single paths in them. The kernels' own
+/// translation units must not include this header.
 
 #include "render/kernels/kernel.hpp"
 
 #include <microtrace/math.hpp>
 
+#include <cstring>
+
 namespace microtrace {
+
+/// Copies an array of lanes, or several ones.
+template <class Lanes>
+void copy(Lanes& to, const Lanes& from) {
+  std::memcpy(&to, &from, sizeof to);
+}
 
 template <int width>
 void put(float (&lanes)[3][width], int lane, const Vec3& v) {

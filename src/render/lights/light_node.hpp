@@ -187,7 +187,6 @@ template <int N>
 LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const Floats3<N>& n,
                             Float<N> u, Lanes wanted) {
   using F = Float<N>;
-  const auto lanes_of = [](const auto& mask) { return less<N>(F{}, mask ? all<N>(1) : F{}); };
   LightChoice<N> choice{.probability = all<N>(1)};
   Unsigned<N> light = Unsigned<N>{} + nodes[0].light, next = Unsigned<N>{} + nodes[0].children;
   for (Lanes inner = nodes[0].children == 0 ? 0 : wanted; inner != 0;) {
@@ -206,7 +205,7 @@ LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const F
     const Lanes lit = inner & less<N>(F{}, choice.probability);
     next = is_second ? children.second.children : children.first.children;
     light = mask_of<N>(lit) ? (is_second ? children.second.light : children.first.light) : light;
-    inner = lit & lanes_of(next != 0);
+    inner = lit & true_lanes<N>(next != 0);
   }
   __builtin_memcpy(choice.light, &light, sizeof light);
   return choice;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
+#include <optional>
 #include <utility>
 
 namespace microtrace {
@@ -26,22 +26,26 @@ void put_sample(LightSamples<kShadingLanes>& lanes, int lane, const LightSample&
 class GuidedDirections {
  public:
   explicit GuidedDirections(const std::array<const EnvironmentGuide::Cell*, kShadingLanes>& cells) {
-    const GuideTable* some = nullptr;
     for (int lane = 0; lane < kShadingLanes; ++lane) {
       const EnvironmentGuide::Cell* cell = cells[static_cast<std::size_t>(lane)];
       parts_[lane] = cell != nullptr ? cell->part() : 0;
       lanes_.tables[lane] = parts_[lane] > 0 ? &cell->directions() : nullptr;
-      if (lanes_.tables[lane] != nullptr) some = lanes_.tables[lane];
     }
-    is_any_ = some != nullptr;
-    std::ranges::replace(lanes_.tables, nullptr, some);
+    is_any_ = complete_tables(lanes_);
   }
 
-  [[nodiscard]] GuideLanes<kShadingLanes>& lanes() { return lanes_; }
+  /// Samples unit directions. At least one cell must have a part.
+  [[nodiscard]] const auto& sample(const ShadingKernels& kernels, const LaneFloats (&u)[2]) {
+    copy(lanes_.u, u);
+    kernels.sample_guides(lanes_);
+    return lanes_.wi;
+  }
   /// Changes the pdfs of these lanes' directions in the environment's distribution to those in the
   /// mixture with the guide.
-  void find_pdfs(const ShadingKernels& kernels, Lanes which, LaneFloats& pdfs) {
+  void mix_pdfs(const ShadingKernels& kernels, Lanes which, const LaneFloats (&wi)[3],
+                LaneFloats& pdfs) {
     if (!is_any_) return;
+    copy(lanes_.wi, wi);
     kernels.guide_pdfs(lanes_);
     for (; which != 0; which &= which - 1) {
       const int lane = std::countr_zero(which);
@@ -109,19 +113,17 @@ void Lighting::sample_environment(const ShadingKernels& kernels, const Cells& ce
   }
   std::array<EnvironmentLight::Sample, kShadingLanes> found;
   environment_->sample(std::span(u).first(free), found);
-  GuidedDirections guided(cells);
+  std::optional<GuidedDirections> guided;
+  if (guide_) guided.emplace(cells);
   const auto set = [&](int lane, const Vec3& wi, const Vec3& radiance, float own_pdf) {
     put_sample(samples, lane,
                {.to_light = wi, .is_far = true, .wi = wi, .light = radiance, .pdf = own_pdf});
-    put(guided.lanes().wi, lane, wi);
   };
   if (by_visibility != 0) {
-    std::ranges::copy(triangles.u[0], guided.lanes().u[0]);
-    std::ranges::copy(triangles.u[1], guided.lanes().u[1]);
-    kernels.sample_guides(guided.lanes());
+    const auto& directions = guided->sample(kernels, triangles.u);
     for (Lanes rest = by_visibility; rest != 0; rest &= rest - 1) {
       const int lane = std::countr_zero(rest);
-      const Vec3 wi = got(guided.lanes().wi, lane);
+      const Vec3 wi = got(directions, lane);
       const EnvironmentLight::Lookup look = environment_->lookup(wi);
       set(lane, wi, look.radiance, look.pdf);
     }
@@ -131,7 +133,7 @@ void Lighting::sample_environment(const ShadingKernels& kernels, const Cells& ce
     set(lanes[i], found[i].wi, found[i].radiance, found[i].pdf);
     selected |= Lanes{1} << lanes[i];
   }
-  guided.find_pdfs(kernels, selected, samples.pdf);
+  if (guided) guided->mix_pdfs(kernels, selected, samples.wi, samples.pdf);
   for (Lanes rest = selected; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     samples.pdf[lane] *= choices.probability[lane];
@@ -208,11 +210,7 @@ void Lighting::environment(const ShadingKernels& kernels, Lanes lanes, bool from
     origins.share[lane] = share(own_cell);
     if (!samples_environment(own_cell)) lights.pdf[lane] = 0;
   }
-  if (guide_) {
-    GuidedDirections guided(found);
-    std::memcpy(guided.lanes().wi, lights.d, sizeof lights.d);
-    guided.find_pdfs(kernels, lanes, lights.pdf);
-  }
+  if (guide_) GuidedDirections(found).mix_pdfs(kernels, lanes, lights.d, lights.pdf);
   kernels.environment_probabilities(setup_, origins);
   for (int lane = 0; lane < kShadingLanes; ++lane) lights.pdf[lane] *= origins.probability[lane];
 }

@@ -16,12 +16,7 @@ inline Double<N> spacings(const Double<N>& x) {
 /// Rounds to float32 numbers.
 template <int N>
 inline Double<N> to_floats(const Double<N>& x) {
-  return __builtin_convertvector(__builtin_convertvector(x, Float<N>), Double<N>);
-}
-
-template <int N>
-inline bool any_of(const DoubleMask<N>& condition) {
-  return less<N>(__builtin_convertvector(condition, Float<N>), Float<N>{}) != 0;
+  return to_double<N>(to_single<N>(x));
 }
 
 /// Computes coordinate_in_plane() of the points x in planes through a.
@@ -89,7 +84,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   for (int k = 0; k < 3; ++k) {
     D below = x.v[k] - x_error.v[k], above = x.v[k] + x_error.v[k];
     D least = to_floats<N>(below), greatest = to_floats<N>(above);
-    if (any_of<N>(least != greatest)) {
+    if (true_double_lanes<N>(least != greatest) != 0) {
       const CoordinateInPlane<N> in_plane(normal, x, x_error, a, k);
       // These bounds may be NaN; `greater` and `lesser` then return the other bound.
       below = greater(in_plane.value - in_plane.error, below);

@@ -40,14 +40,14 @@ inline Lanes find_origins_of(const HitPointLanes& points, OriginLanes& lanes, in
     // If all terms are zero, the point is exactly on the plane, which is common on floors and
     // walls.
     open &= ~is_there & (in_front | behind | (permanent == 0));
-    if (less<N>(__builtin_convertvector(open, Float<N>), Float<N>{}) == 0) break;
+    if (true_double_lanes<N>(open) == 0) break;
     const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);
     const D moved =
         __builtin_convertvector(neighbors<N>(x, up_floats), D) + D{};  // replaces -0 by 0
     for (int k = 0; k < 3; ++k) q.v[k] = (open & (axis == k)) ? moved : q.v[k];
   }
   for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);
-  return less<N>(__builtin_convertvector(is_sure, Float<N>), Float<N>{}) << i;
+  return true_double_lanes<N>(is_sure) << i;
 }
 
 template <int N>
