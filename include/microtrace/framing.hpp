@@ -55,6 +55,8 @@ class MICROTRACE_EXPORT Framing {
 
  private:
   void add(const DVec3& point);
+  /// True if adding the point, or a point between such points, certainly would not change anything.
+  [[nodiscard]] bool holds(const DVec3& point) const;
   template <class Support>
   void add_support(const Support& support, const DVec3& shift);
 

@@ -37,6 +37,13 @@ enum class SurfaceDetail {
   usual,  ///< color for JSON scenes, all for glTF assets, as the default integrators require
 };
 
+/// How meshes are stored that a scene contains several times.
+enum class Instancing {
+  automatic,  ///< shared if copies would have more than 2^20 triangles in all, otherwise copied
+  shared,     ///< stored once; each object has a placement, see Mesh
+  copied,     ///< transformed copies: faster rays, more memory
+};
+
 /// Loading times in seconds.
 struct LoadTimes {
   double read = 0;      ///< reading the scene file, and buffers in files and data URIs
@@ -59,6 +66,7 @@ struct LoadOptions {
   /// Additional folders from which a glTF asset may load buffers and images. Symbolic links to
   /// files of any scene may also lead into these folders.
   std::vector<std::filesystem::path> allowed_folders{};
+  Instancing instancing = Instancing::automatic;  ///< results don't depend on it
   LoadTimes* times = nullptr;  ///< if given, loading times are added to its members
   /// If given, counts the memory used for loading and for the loaded data. Must outlive the
   /// SceneFile and its scenes. The memory of a scene is counted until its SceneFile makes another

@@ -29,6 +29,7 @@
 #include <microtrace/math.hpp>
 #include <microtrace/memory.hpp>
 #include <microtrace/path.hpp>
+#include <microtrace/placement.hpp>
 #include <microtrace/prepared_scene.hpp>
 #include <microtrace/primitives.hpp>
 #include <microtrace/queries.hpp>

@@ -15,8 +15,8 @@
 namespace microtrace {
 
 [[nodiscard]] inline Triangle triangle_of(const Mesh& mesh, std::size_t index) {
-  const auto& [a, b, c] = mesh.triangles[index];
-  return {.a = mesh.positions[a], .b = mesh.positions[b], .c = mesh.positions[c]};
+  const auto [a, b, c] = mesh.corners(index);
+  return {.a = mesh.position(a), .b = mesh.position(b), .c = mesh.position(c)};
 }
 
 /// Gives access to all primitives of a scene by number. The scene must outlive this object and must
@@ -71,19 +71,21 @@ class MICROTRACE_EXPORT Primitives {
   /// Calls f(id, shape) for every primitive in the order of PrimitiveIds.
   template <class F>
   void for_each(F&& f) const {
-    for (std::size_t k = 0; k < scene_->objects.size(); ++k) {
-      std::visit(
-          [&](const auto& shape) {
-            PrimitiveId id = first_ids_[k];
-            if constexpr (is_mesh<decltype(shape)>) {
-              for (std::size_t i = 0; i < shape.triangles.size(); ++i)
-                f(id++, triangle_of(shape, i));
-            } else {
-              f(id, shape);
-            }
-          },
-          scene_->objects[k].shape);
-    }
+    for (std::size_t k = 0; k < scene_->objects.size(); ++k) for_each_of(k, f);
+  }
+  /// Does the same for the primitives of the object with this index.
+  template <class F>
+  void for_each_of(std::size_t object, F&& f) const {
+    std::visit(
+        [&](const auto& shape) {
+          PrimitiveId id = first_ids_[object];
+          if constexpr (is_mesh<decltype(shape)>) {
+            for (std::size_t i = 0; i < shape.triangles.size(); ++i) f(id++, triangle_of(shape, i));
+          } else {
+            f(id, shape);
+          }
+        },
+        scene_->objects[object].shape);
   }
 
  private:

@@ -12,10 +12,15 @@
 /// tests/oracle.
 
 #include <microtrace/array.hpp>
+#include <microtrace/export.hpp>
 #include <microtrace/math.hpp>
+#include <microtrace/placement.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -54,8 +59,13 @@ struct Quadric {
 
 /// A mesh of indexed triangles. Each vertex attribute has a value for every vertex, or its array is
 /// empty. Arrays are made from vectors or borrow the caller's memory, see Array.
+///
+/// Objects can share the arrays of a mesh and place it differently: an array that borrows memory is
+/// copied without its values, and `placement` transforms the values when they are read. Such an
+/// object is called an instance. All results are those of a mesh with transformed arrays, bit for
+/// bit. Use position(), normal(), tangent() and corners() to read any mesh.
 struct Mesh {
-  Array<Vec3> positions;  ///< in scene coordinates
+  Array<Vec3> positions;  ///< in scene coordinates, or in the mesh's own space if it is placed
   /// Indices into positions. Vertices are counterclockwise as seen from the front.
   Array<std::array<std::uint32_t, 3>> triangles;
   Array<Vec3> normals{};   ///< on the front side; unit length or zero
@@ -67,7 +77,37 @@ struct Mesh {
   /// Line segments between vertices, or points if both ends are the same vertex. Segments have no
   /// area, so no ray hits them; render() draws them one pixel wide with widen_segments().
   Array<std::array<std::uint32_t, 2>> segments{};
+  /// Transforms positions, normals and tangents, and exchanges two corners of each triangle if it
+  /// mirrors; null: the arrays are in scene coordinates. A placed mesh must not have segments.
+  std::shared_ptr<const Placement> placement{};
+
+  /// Returns a vertex in scene coordinates.
+  [[nodiscard]] Vec3 position(std::size_t vertex) const {
+    const Vec3& p = positions[vertex];
+    return placement ? Vec3(placement->point(DVec3(p))) : p;
+  }
+  /// Returns the normal of a vertex in scene coordinates. The mesh must have normals.
+  [[nodiscard]] Vec3 normal(std::size_t vertex) const {
+    const Vec3& n = normals[vertex];
+    return placement ? Vec3(placement->normal(DVec3(n))) : n;
+  }
+  /// Returns the tangent of a vertex in scene coordinates. The mesh must have tangents.
+  [[nodiscard]] Vec4 tangent(std::size_t vertex) const {
+    const Vec4& t = tangents[vertex];
+    if (!placement) return t;
+    return {Vec3(placement->direction(DVec3(t))), placement->is_mirrored() ? -t.w : t.w};
+  }
+  /// Returns the indices of a triangle's vertices, counterclockwise as seen from the front.
+  [[nodiscard]] std::array<std::uint32_t, 3> corners(std::size_t triangle) const {
+    std::array<std::uint32_t, 3> result = triangles[triangle];
+    if (placement && placement->is_mirrored()) std::swap(result[1], result[2]);
+    return result;
+  }
 };
+
+/// Returns a copy of a placed mesh with transformed arrays and without a placement. Returns other
+/// meshes unchanged.
+[[nodiscard]] MICROTRACE_EXPORT Mesh baked(const Mesh& mesh);
 
 using Shape = std::variant<Sphere, Plane, Disc, Triangle, Quadric, Mesh>;
 

@@ -133,6 +133,7 @@ class Writer {
     return make("shapes", "Quadric", arguments);
   }
   nb::object shape_of(const Mesh& mesh) {
+    if (mesh.placement) return shape_of(baked(mesh));
     nb::list sets;
     for (const auto& set : mesh.uv_sets) sets.append(to_python(set));
     nb::dict arguments;

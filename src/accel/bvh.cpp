@@ -28,7 +28,8 @@ Bvh::Impl::Impl(const Scene& scene, BvhOptions options)
     : primitives(scene),
       shared(make_bvh_tree(primitives, std::move(options))),
       kernels(&kRayKernels.best()),
-      spawn_kernels(&kSpawnKernels.best()) {}
+      spawn_kernels(&kSpawnKernels.best()),
+      instance_kernels(&kInstanceKernels.best()) {}
 
 namespace {
 
@@ -107,7 +108,10 @@ bool Bvh::Impl::intersect_packet(std::span<const Ray> rays,
     PacketResolver resolver(primitives, rays);
     resolver.begin(packet, outside);
     kernels->closest_of_packet(view(), packet, resolver.fallback());
-    round_hits(primitives, *kernels, view(), rays, packet, hits);
+    if (tree.instances.empty())
+      round_hits(primitives, *kernels, view(), rays, packet, hits);
+    else
+      round_hits_of_instances(primitives, *kernels, rays, packet, hits);
   } else {
     RayPacket tested(primitives, rays);
     for (const PrimitiveId id : outside)

@@ -4,6 +4,7 @@
 #include "accel/build/tree.hpp"
 #include "accel/bvh_tree.hpp"
 #include "accel/few_triangles.hpp"
+#include "accel/instances/dispatch.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/ray_stream.hpp"
 #include "accel/spawn/fast_spawn.hpp"
@@ -26,6 +27,8 @@ struct Bvh::Impl {
             .blocks = tree.blocks.data(),
             .others = tree.others.data(),
             .root = tree.root,
+            .instances = tree.instances.empty() ? nullptr : tree.instances.data(),
+            .scene_block = instance_kernels->scene_block,
             .few = few.get()};
   }
 
@@ -51,10 +54,11 @@ struct Bvh::Impl {
   std::shared_ptr<const BvhTree> shared;
   const Tree& tree = shared->tree;
   const std::vector<PrimitiveId>& outside = tree.unbounded;  // tested one by one
-  bool has_tree = !tree.blocks.empty() || !tree.others.empty();
+  bool has_tree = tree.has_leaves();
   std::unique_ptr<const FewTriangles> few = few_triangles(tree);
   const Kernels* kernels;
   const SpawnKernels* spawn_kernels;
+  const InstanceKernels* instance_kernels;
 };
 
 }  // namespace microtrace

@@ -1,5 +1,7 @@
 #include "accel/bvh_tree.hpp"
 
+#include "accel/build/instances/instances.hpp"
+#include "accel/build/instances/mesh_tree.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/error.hpp>
@@ -14,26 +16,21 @@ namespace {
 // is faster than traversal.
 constexpr PrimitiveId kFew = 16;
 
-// Upper bound of the memory per primitive during the build, including pieces of split triangles.
-constexpr std::uint64_t kBytesOfPrimitive = 120;
-
-constexpr const char* kMemoryUse = "the tree of primitives";
-
 /// Reserves memory for a build. Releases the previous tree if the budget has no room for both
 /// trees.
-MemoryAccount room_for_build(PrimitiveId count, BvhOptions& options) {
+MemoryAccount room_for_build(std::uint64_t count, BvhOptions& options) {
   if (options.previous) {
     try {
-      return temporary_memory(count * kBytesOfPrimitive, kMemoryUse);
+      return temporary_memory(count * kBytesOfPrimitive, kTreeMemory);
     } catch (const Error&) {
       options.previous.reset();
     }
   }
-  return temporary_memory(count * kBytesOfPrimitive, kMemoryUse);
+  return temporary_memory(count * kBytesOfPrimitive, kTreeMemory);
 }
 
 Tree make_tree(const Primitives& primitives, BvhOptions& options) {
-  const MemoryAccount room = room_for_build(primitives.count(), options);
+  const MemoryAccount room = room_for_build(build::stored_primitives(primitives), options);
   BuildOptions build{.fast = options.fast_build,
                      .threads = options.threads,
                      .max_cost_growth = options.max_cost_growth,
@@ -49,14 +46,16 @@ std::shared_ptr<const BvhTree> make_bvh_tree(const Primitives& primitives, BvhOp
   const FloatEnvironment environment;
   MemoryAccount memory(memory_account().budget());
   Tree tree = make_tree(primitives, options);
-  memory.take(memory_of(tree), kMemoryUse);
+  memory.take(memory_of(tree), kTreeMemory);
   return std::make_shared<BvhTree>(BvhTree{.tree = std::move(tree), .memory = std::move(memory)});
 }
 
 std::size_t memory_of(const Tree& tree) {
   const auto bytes = [](const auto& list) { return list.size() * sizeof list[0]; };
-  return bytes(tree.nodes) + bytes(tree.blocks) + bytes(tree.others) + bytes(tree.unbounded) +
-         tree.duplicates.memory();
+  std::size_t result = bytes(tree.nodes) + bytes(tree.blocks) + bytes(tree.others) +
+                       bytes(tree.unbounded) + bytes(tree.instances) + tree.duplicates.memory();
+  for (const auto& mesh : tree.meshes) result += memory_of(mesh->tree);
+  return result;
 }
 
 }  // namespace microtrace

@@ -18,7 +18,8 @@ void put(float (&to)[3], const Vec3& v) {
 }  // namespace
 
 std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree) {
-  if (tree.blocks.empty() || tree.blocks.size() > FewTriangles::kMost || !tree.others.empty())
+  if (tree.blocks.empty() || tree.blocks.size() > FewTriangles::kMost || !tree.others.empty() ||
+      !tree.instances.empty())
     return nullptr;
   auto result = std::make_unique<FewTriangles>();
   for (std::size_t slot = 0; slot < tree.blocks.size() * kWidth; ++slot) {

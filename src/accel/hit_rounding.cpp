@@ -17,10 +17,10 @@ class Corners {
   bool put(PrimitiveId id, HitBatch& batch, std::size_t i) {
     if (id < first_ || id >= last_) look_up(id);
     if (mesh_ == nullptr) return false;
-    const auto& [a, b, c] = mesh_->triangles[id - first_];
-    put(batch.a, i, mesh_->positions[a]);
-    put(batch.b, i, mesh_->positions[b]);
-    put(batch.c, i, mesh_->positions[c]);
+    const Triangle triangle = triangle_of(*mesh_, id - first_);
+    put(batch.a, i, triangle.a);
+    put(batch.b, i, triangle.b);
+    put(batch.c, i, triangle.c);
     return true;
   }
 
@@ -78,6 +78,19 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
   }
   const std::uint64_t certain = triangles != 0 ? kernels.round_t(batch) & triangles : 0;
   write_hits(primitives, found.rays, found.ids, {.certain = certain, .t = batch.t}, hits);
+}
+
+void round_hits_of_instances(const Primitives& primitives, const Kernels& kernels,
+                             std::span<const Ray> rays, const KernelPacket& packet,
+                             std::span<std::optional<Hit>> hits) {
+  static_assert(kHitBatch == kPacketRays);
+  alignas(64) float o[3][kHitBatch];
+  for (int axis = 0; axis < 3; ++axis) std::fill_n(o[axis], kHitBatch, packet.o[axis]);
+  const FoundHits found{.rays = rays,
+                        .ids = packet.best_id,
+                        .o = {o[0], o[1], o[2]},
+                        .d = {packet.d[0], packet.d[1], packet.d[2]}};
+  round_hits(primitives, kernels, found, hits);
 }
 
 void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,

@@ -24,6 +24,12 @@ struct FoundHits {
 void round_hits(const Primitives& primitives, const Kernels& kernels, const FoundHits& found,
                 std::span<std::optional<Hit>> hits);
 
+/// Does the same for the nearest hits of a packet of rays in a scene with instances, whose
+/// triangles have no slots.
+void round_hits_of_instances(const Primitives& primitives, const Kernels& kernels,
+                             std::span<const Ray> rays, const KernelPacket& packet,
+                             std::span<std::optional<Hit>> hits);
+
 /// Does the same for the nearest hits of a packet of rays.
 void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,
                 std::span<const Ray> rays, const KernelPacket& packet,

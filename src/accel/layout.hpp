@@ -51,14 +51,43 @@ struct FewTriangles {
   int count;
 };
 
+/// A tree without the scene, and the numbers of its primitives within their mesh.
+struct MeshTree {
+  const WideNode* nodes;
+  const TriangleBlock* blocks;
+  const std::uint32_t* others;
+  ChildRef root;
+  std::uint32_t triangles;  ///< number of the mesh's triangles
+};
+
+/// An instance in a tree over instances: a mesh's own tree and its place in the scene. See
+/// docs/exactness.md, "Instances".
+struct Instance {
+  const MeshTree* mesh;
+  const double* scene_from_mesh;  ///< three columns of the matrix and the translation
+  std::uint32_t first_id;         ///< added to the numbers of the mesh's primitives
+  std::uint32_t is_mirrored;      ///< 1 if front faces need another order of vertices, otherwise 0
+  float mesh_from_scene[3][3];    ///< rows of the inverse matrix, without the translation
+  float row_max[3];               ///< upper bound of |component| for each row of the exact inverse
+  /// Bounds the displacement of a ray that enters the instance, see InnerRay. Upper bounds of the
+  /// part that does not depend on the ray.
+  float reach;
+};
+
 /// The encoding of ChildRef. Bits 31-30 hold the kind: 0 for a node, 1 for a leaf of triangle
-/// blocks, 2 for a leaf of other bounded primitives. A node has its index in bits 29-0. A leaf
-/// consists of `count` consecutive blocks or primitives, with the index of the first in bits 29-3
-/// and count - 1 in bits 2-0.
+/// blocks, 2 for a leaf of other bounded primitives, 3 for an instance. A node has its index in
+/// bits 29-0. A leaf of kind 1 or 2 consists of `count` consecutive blocks or primitives, with the
+/// index of the first in bits 29-3 and count - 1 in bits 2-0. An instance with index i is
+/// kFirstInstance + i. Traversals use the remaining references of kind 3 as marks on their stacks.
 namespace child_ref {
 inline constexpr ChildRef kTriangles = 1U << 30U;
 inline constexpr ChildRef kOthers = 2U << 30U;
 inline constexpr ChildRef kKind = 3U << 30U;
+inline constexpr ChildRef kFirstInstance = kKind + 1;
+inline constexpr ChildRef kLastInstance = ~ChildRef{0} - 2;
+/// Marks where the subtrees of an instance's mesh end on a stack.
+inline constexpr ChildRef kInstanceEnd = kLastInstance + 1;
+inline constexpr std::uint32_t kMaxInstances = kLastInstance - kFirstInstance;
 inline constexpr std::uint32_t kMaxNodes = 1U << 30U;
 inline constexpr std::uint32_t kMaxLeafEntries = 1U << 27U;
 inline constexpr std::uint32_t kMaxLeafCount = 8;

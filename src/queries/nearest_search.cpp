@@ -69,16 +69,18 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
     double squared_distance;
     ChildRef child;
   };
-  std::array<Subtree, kMaxDepth*(kWidth - 1) + kWidth> stack;
+  std::array<Subtree, kTraversalStack> stack;
   std::size_t size = 0;
   stack[size++] = {0, target_.tree.root};
   const DVec3 point(p);
   Distances distances;
+  TreeReader reader(target_.tree);
   while (size > 0) {
-    const auto [squared_distance, next] = stack[--size];
-    if (squared_distance > limit_) continue;
+    auto [squared_distance, next] = stack[--size];
+    if (squared_distance > limit_ || reader.leave(next)) continue;
+    if (reader.enter(next)) stack[size++] = {0, child_ref::kInstanceEnd};
     if ((next & child_ref::kKind) == 0) {
-      const WideNode& node = target_.tree.nodes[next];
+      const WideNode& node = reader.node(next);
       target_.kernels.box_distances(node, &point.x, distances.data());
       const std::size_t first = size;
       for (std::size_t i = 0; i < kWidth; ++i) {
@@ -96,11 +98,11 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
     const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
     for (std::uint32_t k = begin; k < end; ++k) {
       if (!are_triangles) {
-        const PrimitiveId id = target_.tree.others[k];
+        const PrimitiveId id = reader.other(k);
         if (const auto triangle = target_.primitives.triangle(id)) consider(id, *triangle, p);
         continue;
       }
-      const TriangleBlock& block = target_.tree.blocks[k];
+      const TriangleBlock& block = reader.block(k);
       target_.kernels.triangle_distances(block, &point.x, distances.data());
       for (std::size_t i = 0; i < kWidth; ++i) {
         const bool is_used = block.a[0][i] == block.a[0][i];
@@ -119,7 +121,7 @@ std::optional<NearestPoint> NearestSearch::nearest(const Vec3& p, Poll& poll) {
     poll();
     if (const auto triangle = target_.primitives.triangle(id)) consider(id, *triangle, p);
   }
-  if (!target_.tree.blocks.empty() || !target_.tree.others.empty()) search_tree(p, poll);
+  if (target_.tree.has_leaves()) search_tree(p, poll);
   if (!best_) return std::nullopt;
 
   // Uses the scene's own triangle, because the order of vertices in a block differs.

@@ -2,6 +2,7 @@
 /// Visits all leaves of a tree that a ray may meet, in no particular order, for queries that need
 /// all hits.
 
+#include "accel/instances/tree_reader.hpp"
 #include "accel/layout.hpp"
 #include "queries/tree_target.hpp"
 
@@ -22,18 +23,21 @@ void for_each_candidate(const TreeTarget& target, const Ray& ray, const OnBlock&
                         const OnOther& on_other) {
   const auto& [primitives, tree, kernels] = target;
   for (const PrimitiveId id : tree.unbounded) on_other(id);
-  if (tree.blocks.empty() && tree.others.empty()) return;
+  if (!tree.has_leaves()) return;
   const LineInterval line{.o = {ray.o.x, ray.o.y, ray.o.z},
                           .d = {ray.d.x, ray.d.y, ray.d.z},
                           .t_min = ray.t_min,
                           .t_max = ray.t_max};
-  std::array<ChildRef, kMaxDepth*(kWidth - 1) + kWidth> stack;
+  std::array<ChildRef, kTraversalStack> stack;
   std::size_t size = 0;
   stack[size++] = tree.root;
+  TreeReader reader(tree);
   while (size > 0) {
-    const ChildRef next = stack[--size];
+    ChildRef next = stack[--size];
+    if (reader.leave(next)) continue;
+    if (reader.enter(next)) stack[size++] = child_ref::kInstanceEnd;
     if ((next & child_ref::kKind) == 0) {
-      const WideNode& node = tree.nodes[next];
+      const WideNode& node = reader.node(next);
       for (unsigned lanes = kernels.entered(node, line); lanes != 0; lanes &= lanes - 1)
         stack[size++] = node.child[std::countr_zero(lanes)];
       continue;
@@ -41,10 +45,12 @@ void for_each_candidate(const TreeTarget& target, const Ray& ray, const OnBlock&
     const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
     const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
     for (std::uint32_t i = first; i < end; ++i) {
-      if (!are_triangles)
-        on_other(tree.others[i]);
-      else if (const unsigned lanes = kernels.passed(tree.blocks[i], line); lanes != 0)
-        on_block(tree.blocks[i], lanes);
+      if (!are_triangles) {
+        on_other(reader.other(i));
+        continue;
+      }
+      const TriangleBlock& block = reader.block(i);
+      if (const unsigned lanes = kernels.passed(block, line); lanes != 0) on_block(block, lanes);
     }
   }
 }

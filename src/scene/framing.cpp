@@ -1,6 +1,7 @@
 #include "float_environment.hpp"
 #include "scene/math/trigonometry.hpp"
 #include "scene/support.hpp"
+#include "scene/translation_to_origin.hpp"
 
 #include <microtrace/framing.hpp>
 
@@ -54,6 +55,22 @@ void Framing::add(const DVec3& point) {
   high_ = glm::max(high_, point);
 }
 
+bool Framing::holds(const DVec3& point) const {
+  // The margin exceeds the rounding errors of all extents.
+  const double margin = 0x1p-44 * (std::abs(point.x) + std::abs(point.y) + std::abs(point.z));
+  const double back = glm::dot(back_, point);
+  bool holds = back + margin <= reach_;
+  for (const Sides& sides : sides_) {
+    const double along = glm::dot(sides.axis, point);
+    for (std::size_t k = 0; k < Sides::kSlopes; ++k) {
+      const double near = sides.slope_at(k) * back, slack = margin * (1 + sides.slope_at(k));
+      holds = holds && near + along + slack <= sides.positive[k] &&
+              near - along + slack <= sides.negative[k];
+    }
+  }
+  return holds && glm::min(low_, point) == low_ && glm::max(high_, point) == high_;
+}
+
 template <class Support>
 void Framing::add_support(const Support& support, const DVec3& shift) {
   const auto extend = [&](double& reach, const DVec3& direction) {
@@ -78,9 +95,16 @@ void Framing::add(const Scene& scene) {
   const FloatEnvironment environment;
   if (!origin_) origin_ = scene.origin;
   const DVec3 shift = scene.origin - *origin_;
+  ChunkedMeshes chunks;
+  const auto contains = [&](const MeshChunks::Box& box) {
+    for (const DVec3& corner :
+         corners_of(PointBounds{.low = DVec3(box.lo) + shift, .high = DVec3(box.hi) + shift}))
+      if (!holds(corner)) return false;
+    return true;
+  };
   for (const Object& object : scene.objects) {
     visit_extent(
-        object.shape, [&](const DVec3& point) { add(point + shift); },
+        object.shape, chunks, contains, [&](const DVec3& point) { add(point + shift); },
         [&](const auto& support) { add_support(support, shift); });
   }
 }

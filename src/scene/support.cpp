@@ -4,6 +4,7 @@
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace microtrace {
 
@@ -23,11 +24,15 @@ std::optional<EllipsoidSupport> ellipsoid(const Quadric& q) {
   return EllipsoidSupport{.center = center, .inverse = inverse * square};
 }
 
-std::optional<Extent> extent_of(const Shape& shape) {
+std::optional<Extent> extent_of(const Shape& shape, ChunkedMeshes& chunks) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Extent extent{.low = DVec3(kInfinity), .high = DVec3(-kInfinity)};
   visit_extent(
-      shape,
+      shape, chunks,
+      [&](const MeshChunks::Box& box) {
+        return glm::all(glm::lessThanEqual(extent.low, DVec3(box.lo))) &&
+               glm::all(glm::lessThanEqual(DVec3(box.hi), extent.high));
+      },
       [&](const DVec3& p) {
         extent.low = glm::min(extent.low, p);
         extent.high = glm::max(extent.high, p);

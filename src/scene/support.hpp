@@ -1,6 +1,8 @@
 #pragma once
 /// Support functions and bounds of shapes.
 
+#include "scene/mesh/mesh_chunks.hpp"
+
 #include <microtrace/math.hpp>
 #include <microtrace/shape.hpp>
 
@@ -55,15 +57,19 @@ struct EllipsoidSupport {
 
 /// Calls point(DVec3) for points whose convex hull equals that of the shape, or support(f) with the
 /// shape's support function f. Calls neither if the shape is empty or unbounded. Ignores vertices
-/// that are not finite.
-template <class Point, class Support>
-void visit_extent(const Shape& shape, Point&& point, Support&& support) {
+/// that are not finite, and may ignore vertices of placed meshes in boxes for which
+/// skips(MeshChunks::Box) is true.
+template <class Skips, class Point, class Support>
+void visit_extent(const Shape& shape, ChunkedMeshes& chunks, Skips&& skips, Point&& point,
+                  Support&& support) {
   const auto visit = [&](const auto& s) {
     using S = std::remove_cvref_t<decltype(s)>;
     if constexpr (std::is_same_v<S, Mesh>) {
-      for (const Vec3& p : s.positions) {
+      const auto add = [&](const Vec3& p) {
         if (is_finite(p)) point(DVec3(p));
-      }
+      };
+      if (s.placement) return chunks.of(s).visit(s, skips, add);
+      for (const Vec3& p : s.positions) add(p);
     } else if constexpr (std::is_same_v<S, Triangle>) {
       for (const Vec3& p : {s.a, s.b, s.c}) {
         if (is_finite(p)) point(DVec3(p));
@@ -90,6 +96,6 @@ void visit_extent(const Shape& shape, Point&& point, Support&& support) {
 struct Extent {
   DVec3 low, high;
 };
-[[nodiscard]] std::optional<Extent> extent_of(const Shape& shape);
+[[nodiscard]] std::optional<Extent> extent_of(const Shape& shape, ChunkedMeshes& chunks);
 
 }  // namespace microtrace

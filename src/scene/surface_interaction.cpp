@@ -97,11 +97,11 @@ class Interaction {
     result.triangle = TrianglePoint{.barycentrics = w, .mesh = nullptr, .corners = {}};
     const auto* mesh = std::get_if<Mesh>(&primitives_.scene().objects[result.object].shape);
     if (mesh == nullptr) return result;
-    const auto& vertices = mesh->triangles[result.primitive];
+    const auto vertices = mesh->corners(result.primitive);
     result.triangle->mesh = mesh;
     result.triangle->corners = vertices;
     if (!mesh->normals.empty()) {
-      const auto normal = [&](std::size_t i) { return DVec3(mesh->normals[vertices[i]]); };
+      const auto normal = [&](std::size_t i) { return DVec3(mesh->normal(vertices[i])); };
       result.ns = direction_or(weighted(w, normal(0), normal(1), normal(2)), result.n);
     }
     return result;
@@ -166,8 +166,8 @@ DVec2 SurfaceInteraction::uv_step(std::size_t set, const DVec3& dp) const {
   const Mesh& mesh = *triangle->mesh;
   const auto& [i, j, k] = triangle->corners;
   // Solves dp = s (b - a) + t (c - a) for s and t.
-  const DVec3 a(mesh.positions[i]);
-  const DVec3 ab = DVec3(mesh.positions[j]) - a, ac = DVec3(mesh.positions[k]) - a;
+  const DVec3 a(mesh.position(i));
+  const DVec3 ab = DVec3(mesh.position(j)) - a, ac = DVec3(mesh.position(k)) - a;
   const DVec3 cross = glm::cross(ab, ac);
   const double square = glm::dot(cross, cross);
   if (!(square > 0)) return DVec2(0);

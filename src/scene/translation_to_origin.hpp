@@ -3,6 +3,7 @@
 
 #include <microtrace/math.hpp>
 
+#include <array>
 #include <limits>
 
 #include <glm/common.hpp>
@@ -19,6 +20,15 @@ struct PointBounds {
     high = glm::max(high, p);
   }
 };
+
+[[nodiscard]] inline std::array<DVec3, 8> corners_of(const PointBounds& box) {
+  std::array<DVec3, 8> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k)
+      corners[i][k] = (i >> static_cast<unsigned>(k) & 1U) != 0 ? box.high[k] : box.low[k];
+  }
+  return corners;
+}
 
 /// The translation that moves a scene with these bounds to the origin if the scene's distance is
 /// large compared with its size; otherwise zero. On each axis, the translation is a multiple of a

@@ -1,15 +1,18 @@
 #include "accel/build/tree.hpp"
 
 #include "accel/build/binary/binning.hpp"
+#include "accel/build/instances/instances.hpp"
 #include "accel/build/references/presplit.hpp"
 #include "accel/build/references/reference.hpp"
 #include "accel/build/refit.hpp"
 #include "accel/build/wide/collapse.hpp"
 #include "accel/build/wide/tree_writer.hpp"
 #include "accel/build/wide/wide_tree.hpp"
+#include "base/memory_account.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <variant>
 
 namespace microtrace {
 namespace {
@@ -44,19 +47,34 @@ void take_out_few(build::References& references) {
   references.bounded.erase(first, end);
 }
 
+/// Reserves memory for the triangles of placed meshes that are not instances.
+MemoryAccount room_for_copies(const Primitives& primitives, const std::vector<bool>& is_instance) {
+  const std::vector<Object>& objects = primitives.scene().objects;
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto* mesh = std::get_if<Mesh>(&objects[i].shape);
+    if (mesh != nullptr && mesh->placement && !is_instance[i]) count += mesh->triangles.size();
+  }
+  return temporary_memory(count * kBytesOfPrimitive, kTreeMemory);
+}
+
 }  // namespace
 
 Tree build_tree(const Primitives& primitives, BuildOptions options) {
   using namespace build;
-  References references = gather(primitives);
-  Duplicates duplicates(references, primitives);
+  Tree tree;
+  std::vector<build::Box> boxes;  // of the instances
+  const std::vector<bool> is_instance = find_instances(primitives, options, tree, boxes);
+  const MemoryAccount room = room_for_copies(primitives, is_instance);
+  References references = gather(primitives, is_instance);
+  Duplicates duplicates;
+  if (!options.keeps_duplicates) duplicates = Duplicates(references, primitives);
   references.hashes = {};
   if (primitives.count() <= options.few) take_out_few(references);
-  WorkerPool pool(references.bounded.size() < kWorthThreads ? 1 : options.threads);
-  Tree tree;
+  WorkerPool pool(references.bounded.size() + boxes.size() < kWorthThreads ? 1 : options.threads);
   if (const Tree* const previous = options.previous.get();
-      previous != nullptr && previous->duplicates == duplicates &&
-      previous->unbounded == references.unbounded) {
+      previous != nullptr && tree.instances.empty() && previous->instances.empty() &&
+      previous->duplicates == duplicates && previous->unbounded == references.unbounded) {
     if (std::optional<Tree> fitted =
             refitted(*previous, references, primitives, options.max_cost_growth, pool)) {
       fitted->duplicates = std::move(duplicates);
@@ -71,6 +89,8 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   tree.area = references.area;
   set_points_apart(references.bounded);
   if (!options.fast) presplit(references.bounded, primitives);
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    references.bounded.emplace_back(boxes[i], static_cast<PrimitiveId>(i), kInstanceWeight);
   BinaryTree binary = build_binary_tree(std::move(references.bounded),
                                         options.fast ? kBinsForPreview : kMaxBins, pool);
   if (binary.ids.empty()) {

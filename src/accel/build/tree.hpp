@@ -8,6 +8,7 @@
 
 #include <microtrace/primitives.hpp>
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -16,6 +17,12 @@
 namespace microtrace {
 
 struct Tree;
+struct OwnedMeshTree;
+
+/// Upper bound of the memory per primitive during a build, including pieces of split triangles.
+inline constexpr std::uint64_t kBytesOfPrimitive = 120;
+/// What this memory is for, in error messages.
+inline constexpr const char* kTreeMemory = "the tree of primitives";
 
 struct BuildOptions {
   bool fast = false;     ///< builds faster with fewer candidate splits, for previews
@@ -27,6 +34,8 @@ struct BuildOptions {
   /// In scenes with at most this number of primitives, those that are tested faster one by one are
   /// kept out of the tree.
   PrimitiveId few = 0;
+  /// Stores all triangles that are the same set of points, instead of one of them.
+  bool keeps_duplicates = false;
 };
 
 /// A closed bounding box in scene coordinates; empty if lo > hi.
@@ -46,8 +55,8 @@ struct RelativeCost {
 /// Maximum number of nodes on a path from the root.
 inline constexpr int kMaxDepth = 64;
 
-/// The tree. Every nonempty primitive is in a leaf, in `unbounded`, or a duplicate of a primitive
-/// in a leaf.
+/// The tree. Every nonempty primitive is in a leaf, in `unbounded`, in an instance, or a duplicate
+/// of a primitive in a leaf.
 struct Tree {
   PageVector<WideNode> nodes;
   PageVector<TriangleBlock> blocks;  ///< triangles with every |coordinate| at most 2^38
@@ -55,9 +64,16 @@ struct Tree {
   /// Planes, quadrics, shapes beyond the float32 range, and primitives of scenes with so few of
   /// them that testing each is faster.
   std::vector<PrimitiveId> unbounded;
+  std::vector<std::shared_ptr<const OwnedMeshTree>> meshes;  ///< the trees of instances
+  /// Refer to `meshes` and to placements in the scene.
+  std::vector<Instance> instances;
   Duplicates duplicates;  ///< triangles equal to one in the tree
   ChildRef root = 0;      ///< a node without children if there are no leaves
   Bounds bounds;          ///< bounds of all leaves
+
+  [[nodiscard]] bool has_leaves() const {
+    return !blocks.empty() || !others.empty() || !instances.empty();
+  }
 
   // The following members are for refitted().
   std::size_t primitives = 0;                ///< number of primitives in leaves

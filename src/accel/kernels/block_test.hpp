@@ -4,6 +4,7 @@
 /// miss, a certain hit with t in an interval, or uncertain; the fallback decides uncertain lanes.
 
 #include "accel/kernels/edge_test.hpp"
+#include "accel/kernels/inner_ray.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
 
@@ -42,6 +43,8 @@ inline Float<N> lanes_of(const Float<N>& x) {
   return x;
 }
 
+constexpr float kNoSlack = -0.0F;  // compilers know that x + -0 is x, but not that x + 0 is x
+
 /// Tests N triangles against one ray, or one triangle against N rays. RayPart is a vector of lanes
 /// if there are N rays, otherwise a scalar.
 template <int N, class RayPart>
@@ -53,21 +56,25 @@ struct VolumeTest {
   RayPart size_error;
 
   /// a is the vector from the ray's origin to the first vertex, e1 and e2 are the edges from that
-  /// vertex. em is TriangleBlock::largest_edge, and m is TriangleBlock::edge_product.
+  /// vertex. em is TriangleBlock::largest_edge, and m is TriangleBlock::edge_product. For slack see
+  /// InnerRay.
   template <class TrianglePart>
+  __attribute__((always_inline))
   VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
              const RayPart (&d)[3], float em, float m, const RayPart& d_sum, const RayPart& t_begin,
-             const RayPart& t_limit)
+             const RayPart& t_limit, float slack = kNoSlack)
       : VolumeTest(a, e1, e2,
                    {e1[1] * e2[2] - e1[2] * e2[1], e1[2] * e2[0] - e1[0] * e2[2],
                     e1[0] * e2[1] - e1[1] * e2[0]},
-                   d, em, m, d_sum, t_begin, t_limit) {}
+                   d, em, m, d_sum, t_begin, t_limit, slack) {}
 
-  /// n: e1 x e2.
+  /// n: e1 x e2. Always inlined, like BlockTest::run.
   template <class TrianglePart>
+  __attribute__((always_inline))
   VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
              const TrianglePart (&n)[3], const RayPart (&d)[3], float em, float m,
-             const RayPart& d_sum, const RayPart& t_begin, const RayPart& t_limit) {
+             const RayPart& d_sum, const RayPart& t_begin, const RayPart& t_limit,
+             float slack = kNoSlack) {
     const F rx = a[1] * d[2] - a[2] * d[1], ry = a[2] * d[0] - a[0] * d[2],
             rz = a[0] * d[1] - a[1] * d[0];
     const F signed_size = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
@@ -77,7 +84,7 @@ struct VolumeTest {
     const F v = -with_sign_of<N>(rx * e1[0] + ry * e1[1] + rz * e1[2], signed_size);
     height = with_sign_of<N>(n[0] * a[0] + n[1] * a[1] + n[2] * a[2], signed_size);
 
-    const F a_sum = magnitude(a[0]) + magnitude(a[1]) + magnitude(a[2]);
+    const F a_sum = magnitude(a[0]) + magnitude(a[1]) + magnitude(a[2]) + slack;
     const F edge_error = (a_sum * em + m) * (15.01F * kUnit * d_sum) + kTiny;
     height_error = a_sum * (17.01F * kUnit * m) + kTiny;
     size_error = 15.01F * kUnit * d_sum * m + kTiny;
@@ -102,6 +109,29 @@ struct BlockTest {
   /// because GCC would not inline it by itself, which makes traversal a tenth slower.
   __attribute__((always_inline)) void run(const TriangleBlock& block, const KernelRay& ray,
                                           float t_limit) {
+    run_line(block, {ray.o, ray.d, ray.d_sum, kNoSlack}, ray.t_begin, t_limit);
+  }
+  /// Tests an instance's mesh. Lanes outside of `maybe` are certain misses of the instance's
+  /// triangles; the other results have no meaning.
+  void run(const TriangleBlock& block, const InnerRay& ray, float t_begin, float t_limit) {
+    run_line(block, {ray.o, ray.d, ray.d_sum, ray.slack}, t_begin, t_limit);
+  }
+
+  /// True if t() is valid for a lane.
+  [[nodiscard]] bool has_t(int lane) const { return size_[lane] > 16 * size_error_; }
+  /// Returns bounds of t for a lane that is a certain hit.
+  [[nodiscard]] Interval<float> t(int lane) const {
+    return interval(height_[lane], size_[lane], height_error_[lane], size_error_);
+  }
+
+ private:
+  struct Line {
+    const float (&o)[3], (&d)[3];
+    float d_sum, slack;
+  };
+
+  __attribute__((always_inline)) void run_line(const TriangleBlock& block, const Line& ray,
+                                               float t_begin, float t_limit) {
     using F = Float<N>;
     const float limit = t_limit < kFarthestHit ? t_limit : kFarthestHit;
     maybe = certain = 0;
@@ -113,7 +143,7 @@ struct BlockTest {
       const F e2[3] = {load<N>(block.c[0] + i) - x, load<N>(block.c[1] + i) - y,
                        load<N>(block.c[2] + i) - z};
       const VolumeTest<N, float> test(a, e1, e2, ray.d, block.largest_edge, block.edge_product,
-                                      ray.d_sum, ray.t_begin, limit);
+                                      ray.d_sum, t_begin, limit, ray.slack);
       maybe |= test.maybe << i;
       certain |= test.certain << i;
       size_error_ = test.size_error;
@@ -123,14 +153,6 @@ struct BlockTest {
     }
   }
 
-  /// True if t() is valid for a lane.
-  [[nodiscard]] bool has_t(int lane) const { return size_[lane] > 16 * size_error_; }
-  /// Returns bounds of t for a lane that is a certain hit.
-  [[nodiscard]] Interval<float> t(int lane) const {
-    return interval(height_[lane], size_[lane], height_error_[lane], size_error_);
-  }
-
- private:
   float size_error_;
   alignas(32) float height_[kWidth], size_[kWidth], height_error_[kWidth];
 };
@@ -210,21 +232,50 @@ inline void meet_lanes(const TreeView& tree, const TriangleBlock& block, const B
   }
 }
 
+/// Does the same for a block of an instance's mesh, of which `inner` has rejected some lanes.
+template <int N, bool kAny, class Slowly>
+inline void meet_instance_lanes(const TreeView& tree, const Instance& instance,
+                                const TriangleBlock& block, const BlockTest<N>& inner,
+                                const KernelRay& ray, ClosestSoFar& best, const Slowly& fallback) {
+  TriangleBlock placed;
+  tree.scene_block(instance, block, placed);
+  BlockTest<N> test;
+  test.run(placed, ray, best.hi);
+  test.maybe &= inner.maybe;
+  meet_lanes<N, kAny>(tree, placed, test, ray, best, fallback);
+}
+
 /// Tests all entries of a leaf against a ray and updates `best`, as meet_lanes does for one block.
 template <int N, bool kAny, class Slowly>
-inline void meet_leaf(const TreeView& tree, const KernelRay& ray, ChildRef leaf, ClosestSoFar& best,
+inline void meet_leaf(const TreeView& tree, const Scope& scope, const KernelRay& ray,
+                      const InnerRay& inner, ChildRef leaf, ClosestSoFar& best,
                       const Slowly& fallback) {
   const bool has_triangles = (leaf & child_ref::kKind) == child_ref::kTriangles;
   for_each_entry(leaf, [&](std::uint32_t i) {
-    if (has_triangles) {
-      BlockTest<N> test;
-      test.run(tree.blocks[i], ray, best.hi);
-      meet_lanes<N, kAny>(tree, tree.blocks[i], test, ray, best, fallback);
+    BlockTest<N> test;
+    if (!has_triangles) {
+      fallback(scope.first_id() + scope.others[i], best);
+    } else if (scope.instance == nullptr) {
+      test.run(scope.blocks[i], ray, best.hi);
+      meet_lanes<N, kAny>(tree, scope.blocks[i], test, ray, best, fallback);
     } else {
-      fallback(tree.others[i], best);
+      test.run(scope.blocks[i], inner, ray.t_begin, best.hi);
+      if (test.maybe != 0)
+        meet_instance_lanes<N, kAny>(tree, *scope.instance, scope.blocks[i], test, ray, best,
+                                     fallback);
     }
     return kAny && best.id != kNoPrimitive;
   });
+}
+
+/// Considers every triangle of an instance, for rays that exceed the limits of enter().
+template <class Slowly>
+inline void consider_instance(const Instance& instance, const KernelRay& ray, ClosestSoFar& best,
+                              const Slowly& fallback) {
+  for (std::uint32_t i = 0; i < instance.mesh->triangles; ++i) {
+    const std::uint32_t id = instance.first_id + i;
+    if (id != ray.omitted_id) fallback(id, best);
+  }
 }
 
 }  // namespace

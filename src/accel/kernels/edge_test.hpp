@@ -62,7 +62,8 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
 }
 
 /// Decides whether a ray arrives at the front of triangle k of a block.
-inline Within meets_front(const TriangleBlock& block, int k, const float* d) {
+__attribute__((always_inline)) inline Within meets_front(const TriangleBlock& block, int k,
+                                                         const float* d) {
   const float origin[3] = {0, 0, 0};
   const NearTriangle t(block, k, origin);
   double slope = 0, sum = 0;

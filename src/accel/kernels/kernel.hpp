@@ -16,6 +16,10 @@ struct TreeView {
   const TriangleBlock* blocks;
   const std::uint32_t* others;
   ChildRef root;
+  const Instance* instances = nullptr;  ///< null if there are none
+  /// Transforms a block of an instance's mesh to the scene, as Placement::point does.
+  void (*scene_block)(const Instance& instance, const TriangleBlock& from,
+                      TriangleBlock& to) = nullptr;
   const FewTriangles* few = nullptr;  ///< all primitives, if they are few triangles
   /// One bit per primitive, or null. any_of_stream passes through the fronts of these triangles.
   const std::uint32_t* open_fronts = nullptr;
@@ -45,6 +49,15 @@ inline constexpr float kShortestDirection = 0x1p-20F;  ///< for the largest |d_i
 /// float above 0, and arithmetic with subnormal numbers is slow. Culling less is always valid.
 inline constexpr float kLeastBegin = 0x1p-100F;
 
+/// A ray for tests of boxes, see slabs.hpp.
+struct BoxRay {
+  float near_o[3], far_o[3];  ///< origins for the planes through which the ray enters and leaves
+  float near_factor[3], far_factor[3];
+  /// Offsets within a WideNode, counted in floats, of the planes through which the ray enters and
+  /// leaves boxes.
+  std::uint32_t near_plane[3], far_plane[3];
+};
+
 /// A ray in the kernels' form, within the limits above.
 struct KernelRay {
   float o[3], d[3];
@@ -52,11 +65,8 @@ struct KernelRay {
   float t_begin;             ///< hits certainly before it are culled; t_min, or 0 below kLeastBegin
   std::uint32_t omitted_id;  ///< a triangle that is not tested, or kNoPrimitive
   // ---- set by the kernel:
-  float near_factor[3], far_factor[3];  ///< see slabs.hpp
-  float d_sum;                          ///< |d_x| + |d_y| + |d_z|, rounded up
-  /// Offsets within a WideNode, counted in floats, of the planes through which the ray enters and
-  /// leaves boxes.
-  std::uint32_t near_plane[3], far_plane[3];
+  BoxRay box;
+  float d_sum;  ///< |d_x| + |d_y| + |d_z|, rounded up
 };
 
 inline constexpr int kPacketRays = 64;
@@ -72,6 +82,16 @@ struct Beam {
 /// its lane.
 inline constexpr std::uint32_t kNoSlot = ~0U;
 
+/// The rays of a packet for tests of boxes, see slabs.hpp.
+struct alignas(64) PacketBoxRays {
+  float near[3][kPacketRays], far[3][kPacketRays];  ///< near_factor and far_factor of each ray
+  float o_of_lo[3], o_of_hi[3];  ///< origins for the lower and the upper planes of boxes
+  bool negative[3];              ///< true if d_i is negative for all rays; valid if common_sign
+  bool common_sign[3];           ///< true if all d_i have the same sign and no 1 / d_i overflows
+  float least_near[3], greatest_near[3];  ///< bounds of the factors; valid if common_sign
+  float least_far[3], greatest_far[3];
+};
+
 /// Rays with a common origin within the limits of KernelRay, stored in one array per component.
 /// Traversal is fastest if the rays are nearly parallel. Elements after the last ray repeat the
 /// last ray, but hit nothing.
@@ -82,17 +102,13 @@ struct alignas(64) KernelPacket {
   std::uint32_t best_id[kPacketRays];
   std::uint32_t best_slot[kPacketRays];  ///< of the nearest hit, if it is a triangle in a block
   float o[3];
-  int count;                                        ///< number of rays
-  float near[3][kPacketRays], far[3][kPacketRays];  ///< near_factor and far_factor of each ray
-  float t_begin[kPacketRays];                       ///< as in KernelRay
-  float least_t_begin;                              ///< the least t_begin of all rays
-  Beam beam, group_beam[kGroups];                   ///< beams that contain the directions of all
-                                                    ///< rays and of each group
-  float d_sum;          ///< upper bound of |d_x| + |d_y| + |d_z| for all directions of the beam
-  bool negative[3];     ///< true if d_i is negative for all rays; valid if common_sign
-  bool common_sign[3];  ///< true if all d_i have the same sign and no 1 / d_i overflows
-  float least_near[3], greatest_near[3];  ///< bounds of the factors; valid if common_sign
-  float least_far[3], greatest_far[3];
+  int count;  ///< number of rays
+  PacketBoxRays boxes;
+  float t_begin[kPacketRays];      ///< as in KernelRay
+  float least_t_begin;             ///< the least t_begin of all rays
+  Beam beam, group_beam[kGroups];  ///< beams that contain the directions of all rays and of each
+                                   ///< group
+  float d_sum;  ///< upper bound of |d_x| + |d_y| + |d_z| for all directions of the beam
 };
 
 /// Callbacks for hits of a packet's rays that float32 can't decide.
@@ -153,9 +169,11 @@ struct BoxQuery {
   int plane_axis = -1;         ///< axis perpendicular to the plane; -1: no plane
   float plane_at = 0;          ///< the plane's coordinate on plane_axis
   int count;                   ///< number of results; -1: more than kMost
-  std::uint32_t slots[kMost];  ///< triangles; or kOtherSlot + index into TreeView::others
+  std::uint32_t slots[kMost];  ///< triangles; or kOtherSlot + index into TreeView::others; or
+                               ///< kIdSlot
+  std::uint32_t ids[kMost];    ///< primitives of instances, where the slot is kIdSlot
 };
-inline constexpr std::uint32_t kOtherSlot = 1U << 31U;
+inline constexpr std::uint32_t kOtherSlot = 1U << 31U, kIdSlot = ~0U;
 inline constexpr int kBoxQueries = 16;
 
 /// The functions of one instruction set.

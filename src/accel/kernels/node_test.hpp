@@ -8,10 +8,12 @@
 namespace microtrace {
 namespace {
 
-constexpr int kStackSize = 64 * (kWidth - 1) + 1;  // the builder limits the depth of trees to 64
+// The builder limits the depth of trees to 64. A mesh's tree may be below a tree of instances.
+constexpr int kStackSize = 2 * 64 * (kWidth - 1) + 2;
 
 /// Marks the end of the stack.
 constexpr ChildRef kFinished = child_ref::kKind;
+using child_ref::kInstanceEnd;
 
 /// The subtrees that are still to be visited, each with the distance at which the ray enters it.
 /// kFinished is at the bottom.
@@ -26,6 +28,10 @@ struct RayStack {
     child[0] = kFinished;
     near[0] = -__builtin_inff();
   }
+  void push_instance_end() {
+    child[size] = kInstanceEnd;
+    near[size++] = -__builtin_inff();
+  }
 };
 
 /// Pops the subtree that was pushed last. Without kAny, skips subtrees that start beyond the limit.
@@ -39,28 +45,31 @@ inline ChildRef pop(RayStack& stack, float limit) {
   return stack.child[top];
 }
 
-/// The children of a node that the ray enters before `limit`, and the entry distances.
-template <int N>
+/// The children of a node that the ray enters before `limit`, and the entry distances. With
+/// kOneOrigin, the ray's near_o and far_o are equal.
+template <int N, bool kOneOrigin>
 struct NodeTest {
   Lanes entered = 0;
   alignas(32) float near[kWidth];
 
-  NodeTest(const WideNode& node, const KernelRay& ray, float limit) {
+  NodeTest(const WideNode& node, const BoxRay& ray, float begin, float limit) {
     using F = Float<N>;
     const float* planes = node.lo_x;  // the node's six arrays are consecutive in memory
     for (int i = 0; i < kWidth; i += N) {
-      const auto distance = [&](const std::uint32_t(&plane)[3], const float(&factor)[3], int axis) {
-        return (load<N>(planes + plane[axis] + i) - ray.o[axis]) * factor[axis];
+      const auto near_at = [&](int axis) {
+        return (load<N>(planes + ray.near_plane[axis] + i) - ray.near_o[axis]) *
+               ray.near_factor[axis];
       };
-      const F near_x = distance(ray.near_plane, ray.near_factor, 0);
-      const F near_y = distance(ray.near_plane, ray.near_factor, 1);
-      const F near_z = distance(ray.near_plane, ray.near_factor, 2);
-      const F far_x = distance(ray.far_plane, ray.far_factor, 0);
-      const F far_y = distance(ray.far_plane, ray.far_factor, 1);
-      const F far_z = distance(ray.far_plane, ray.far_factor, 2);
+      const auto far_at = [&](int axis) {
+        return (load<N>(planes + ray.far_plane[axis] + i) -
+                (kOneOrigin ? ray.near_o : ray.far_o)[axis]) *
+               ray.far_factor[axis];
+      };
+      const F near_x = near_at(0), near_y = near_at(1), near_z = near_at(2);
+      const F far_x = far_at(0), far_y = far_at(1), far_z = far_at(2);
       // 0 * infinity is NaN, which means that the plane is no limit: lesser and greater ignore a
       // NaN in their first argument.
-      const F enter = greater(near_x, greater(near_y, greater(near_z, all<N>(ray.t_begin))));
+      const F enter = greater(near_x, greater(near_y, greater(near_z, all<N>(begin))));
       const F leave = lesser(far_x, lesser(far_y, lesser(far_z, all<N>(limit))));
       entered |= less_equal<N>(enter, leave) << i;
       store<N>(near + i, enter);
@@ -72,10 +81,10 @@ struct NodeTest {
 /// pushes the other entered children. With kAny, returns any entered child and pushes the others
 /// without their distances. If the ray enters none, pops a subtree: with kAny the top one,
 /// otherwise the first that starts before the limit.
-template <int N, bool kAny>
-inline ChildRef step_into(const WideNode& node, const KernelRay& ray, float limit,
+template <int N, bool kAny, bool kOneOrigin>
+inline ChildRef step_into(const WideNode& node, const BoxRay& ray, float begin, float limit,
                           RayStack& stack) {
-  const NodeTest<N> test(node, ray, limit);
+  const NodeTest<N, kOneOrigin> test(node, ray, begin, limit);
   // The ninth bit gives first_lane a defined result if no child is entered.
   const int lane =
       kAny ? first_lane(test.entered | 0x100U) & 7 : least_lane(test.entered, test.near);

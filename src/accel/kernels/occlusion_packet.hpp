@@ -5,6 +5,7 @@
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
+#include "accel/kernels/single_ray.hpp"
 #include "accel/kernels/slabs.hpp"
 
 namespace microtrace {
@@ -45,7 +46,8 @@ class OcclusionPacketWalk {
       const Entry entry = stack_[--top];
       const std::uint64_t rays = entry.rays & open_;
       const int count = __builtin_popcountll(rays);
-      if (count < kFew && items_.size + count <= StreamItems::kCapacity)
+      if ((count < kFew || is_instance(entry.child)) &&
+          items_.size + count <= StreamItems::kCapacity)
         leave_over(entry.child, rays);
       else if ((entry.child & child_ref::kKind) == 0)
         top = push_children(tree_.nodes[entry.child], rays, top);
@@ -152,7 +154,31 @@ class OcclusionPacketWalk {
       items_.item[items_.size++] = {first_ + first_lane(rays), child};
   }
 
+  // Traces the rays through an instance one by one, if the array of remaining work is full.
+  void meet_instance(ChildRef instance, std::uint64_t rays) {
+    TreeView tree = tree_;
+    tree.root = instance;
+    for (; rays != 0; rays &= rays - 1) {
+      const int ray = first_lane(rays), at = first_ + ray;
+      KernelRay single{};
+      for (int axis = 0; axis < 3; ++axis) {
+        single.o[axis] = stream_.o[axis][at];
+        single.d[axis] = stream_.d[axis][at];
+      }
+      single.t_min = stream_.t_min[at];
+      single.t_begin = stream_.t_begin[at];
+      single.omitted_id = stream_.omitted_id[at];
+      ClosestSoFar best{stream_.best_lo[at], stream_.best_hi[at], kNoPrimitive};
+      walk<kNodeLanes, true>(
+          tree, single,
+          [&](std::uint32_t id, ClosestSoFar& b) { slow_.consider(slow_.context, at, id, b); },
+          best);
+      if (best.id != kNoPrimitive) close(best.id, std::uint64_t{1} << ray);
+    }
+  }
+
   void meet_leaf(ChildRef leaf, std::uint64_t rays) {
+    if (is_instance(leaf)) return meet_instance(leaf, rays & open_);
     const bool has_triangles = (leaf & child_ref::kKind) == child_ref::kTriangles;
     for_each_entry(leaf, [&](std::uint32_t entry) {
       if (has_triangles)

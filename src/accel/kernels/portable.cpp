@@ -1,7 +1,8 @@
-#include "accel/kernels/packet.hpp"
-#include "accel/kernels/packet_rays.hpp"
+#include "accel/kernels/packet/packet.hpp"
+#include "accel/kernels/packet/packet_rays.hpp"
 #include "accel/kernels/round_t.hpp"
 #include "accel/kernels/stream.hpp"
+#include "accel/kernels/stream_rays.hpp"
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {

@@ -58,10 +58,11 @@ inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, con
   V error = (plane.height_error + distance * size_error) * magnitude(inverse) * 1.04 +
             distance * (8 * kRounding) + kUnderflow;
   error = magnitude(size) > 64 * size_error ? error : V{} + __builtin_inf();
-  float above[N];
-  narrowed<N>(middle - error, t);
+  float below[N], above[N];
+  narrowed<N>(middle - error, below);
   narrowed<N>(middle + error, above);
-  return less_equal<N>(load<N>(above), load<N>(t));
+  store<N>(t, load<N>(below) + 0.0F);  // -0 becomes 0
+  return less_equal<N>(load<N>(above), load<N>(below));
 }
 
 template <int N>

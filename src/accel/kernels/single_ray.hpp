@@ -14,34 +14,51 @@ struct StackEntry {
   float near;
 };
 
-template <int N, bool kAny>
-inline void walk(const TreeView& tree, KernelRay& ray, const Fallback& slow, ClosestSoFar& best) {
+template <int N, bool kAny, class Slowly>
+inline void walk(const TreeView& tree, KernelRay& ray, const Slowly& fallback, ClosestSoFar& best) {
   prepare_ray(ray);
-  const auto fallback = [&](std::uint32_t id, ClosestSoFar& b) {
-    slow.consider(slow.context, id, b);
-  };
+  Scope scope;
+  scope.set(tree, ray);
+  InnerRay inner;
   RayStack stack;
   stack.clear();
   for (ChildRef next = tree.root; next != kFinished;) {
     if ((next & child_ref::kKind) == 0) {
-      next = step_into<N, kAny>(tree.nodes[next], ray, best.hi, stack);
-    } else {
-      meet_leaf<N, kAny>(tree, ray, next, best, fallback);
-      if (kAny && best.id != kNoPrimitive) return;
-      next = pop<kAny>(stack, best.hi);
+      next = step_into<N, kAny, false>(scope.nodes[next], *scope.box, ray.t_begin, best.hi, stack);
+      continue;
     }
+    if (next == kInstanceEnd) {
+      scope.set(tree, ray);
+    } else if (is_instance(next)) {
+      const Instance& instance = tree.instances[next - child_ref::kFirstInstance];
+      if (enter(instance, ray, inner)) {
+        scope.set(instance, inner);
+        stack.push_instance_end();
+        next = instance.mesh->root;
+        continue;
+      }
+      consider_instance(instance, ray, best, fallback);
+    } else {
+      meet_leaf<N, kAny>(tree, scope, ray, inner, next, best, fallback);
+    }
+    if (kAny && best.id != kNoPrimitive) return;
+    next = pop<kAny>(stack, best.hi);
   }
+}
+
+inline auto fallback_of(const Fallback& slow) {
+  return [&slow](std::uint32_t id, ClosestSoFar& best) { slow.consider(slow.context, id, best); };
 }
 
 template <int N>
 void closest(const TreeView& tree, KernelRay ray, const Fallback& slow, ClosestSoFar& best) {
-  walk<N, false>(tree, ray, slow, best);
+  walk<N, false>(tree, ray, fallback_of(slow), best);
 }
 
 template <int N>
 bool any(const TreeView& tree, KernelRay ray, const Fallback& slow) {
   ClosestSoFar best{ray.t_max, ray.t_max, kNoPrimitive};
-  walk<N, true>(tree, ray, slow, best);
+  walk<N, true>(tree, ray, fallback_of(slow), best);
   return best.id != kNoPrimitive;
 }
 

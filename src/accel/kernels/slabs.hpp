@@ -32,33 +32,43 @@ inline void slab_factors(const Float<N>& d, Float<N>& near, Float<N>& far) {
   far = d < zero ? -above : above;
 }
 
-inline void find_planes(KernelRay& ray) {
+inline void find_planes(const float (&d)[3], BoxRay& box) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto lo = static_cast<std::uint32_t>(axis * kWidth), hi = lo + 3 * kWidth;
-    const bool negative = ray.d[axis] < 0;
-    ray.near_plane[axis] = negative ? hi : lo;
-    ray.far_plane[axis] = negative ? lo : hi;
+    const bool negative = d[axis] < 0;
+    box.near_plane[axis] = negative ? hi : lo;
+    box.far_plane[axis] = negative ? lo : hi;
   }
 }
 
-/// Computes the members of KernelRay that depend only on its direction.
-inline void prepare_ray(KernelRay& ray) {
-  float d[4] = {ray.d[0], ray.d[1], ray.d[2], 0}, near[4], far[4];
+/// Computes the factors and planes for a direction. Returns |d_x| + |d_y| + |d_z|, rounded up.
+inline float set_direction(const float (&direction)[3], BoxRay& box) {
+  float d[4] = {direction[0], direction[1], direction[2], 0}, near[4], far[4];
   Float<4> near_factor, far_factor;
   slab_factors<4>(load<4>(d), near_factor, far_factor);
   store<4>(near, near_factor);
   store<4>(far, far_factor);
   float sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    ray.near_factor[axis] = near[axis];
-    ray.far_factor[axis] = far[axis];
+    box.near_factor[axis] = near[axis];
+    box.far_factor[axis] = far[axis];
     sum += __builtin_fabsf(d[axis]);
   }
+  find_planes(direction, box);
   // The sum and the product have three roundings, so half of the margin would suffice. This and
   // other factors near 1 in the kernels omit terms of order u^2, which the .01 in bounds such as
   // 15.01 u covers.
-  ray.d_sum = sum * (1 + 0x1p-21F);
-  find_planes(ray);
+  return sum * (1 + 0x1p-21F);
+}
+
+inline void set_origin(const float (&o)[3], BoxRay& box) {
+  for (int axis = 0; axis < 3; ++axis) box.near_o[axis] = box.far_o[axis] = o[axis];
+}
+
+/// Computes the members that the kernel sets.
+inline void prepare_ray(KernelRay& ray) {
+  set_origin(ray.o, ray.box);
+  ray.d_sum = set_direction(ray.d, ray.box);
 }
 
 }  // namespace

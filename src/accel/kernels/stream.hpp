@@ -13,59 +13,8 @@
 namespace microtrace {
 namespace {
 
-template <int N>
-void prepare_stream(KernelStream& stream) {
-  using F = Float<N>;
-  const F zero{}, one = all<N>(1.0F), farthest = all<N>(kFarthestCoordinate);
-  for (int i = 0; i < stream.count; i += N) {
-    F t_min = load<N>(stream.t_min + i), t_max = load<N>(stream.best_hi + i), size{};
-    Lanes suited =
-        less_equal<N>(zero, t_min) & less_equal<N>(t_min, farthest) & less_equal<N>(t_min, t_max);
-    for (int axis = 0; axis < 3; ++axis) {
-      const F length = magnitude(load<N>(stream.d[axis] + i));
-      size = greater(length, size);
-      suited &= less_equal<N>(length, all<N>(kLongestDirection)) &
-                less_equal<N>(magnitude(load<N>(stream.o[axis] + i)), farthest);
-    }
-    suited &= less_equal<N>(all<N>(kShortestDirection), size);
-    F sum{};
-    for (int axis = 0; axis < 3; ++axis) {
-      F d = load<N>(stream.d[axis] + i), near, far;
-      if (suited != kAllLanes<N>) {
-        d = select<N>(suited, d, one);
-        store<N>(stream.d[axis] + i, d);
-        store<N>(stream.o[axis] + i, select<N>(suited, load<N>(stream.o[axis] + i), zero));
-      }
-      slab_factors<N>(d, near, far);
-      store<N>(stream.near[axis] + i, near);
-      store<N>(stream.far[axis] + i, far);
-      sum = sum + magnitude(d);
-    }
-    t_min = select<N>(suited, t_min, zero);
-    t_max = select<N>(suited, t_max, zero);
-    store<N>(stream.d_sum + i, sum * (1 + 0x1p-21F));
-    store<N>(stream.t_min + i, t_min);
-    store<N>(stream.t_begin + i, t_min < all<N>(kLeastBegin) ? zero : t_min);
-    store<N>(stream.best_lo + i, t_max);
-    store<N>(stream.best_hi + i, t_max);
-    const int shift = i % 64;
-    std::uint64_t& set = stream.suited[i / 64];
-    set = (shift == 0 ? 0 : set) | std::uint64_t{suited} << shift;
-  }
-  // Fills the last packet by repeating the last ray.
-  for (int i = stream.count; i % kPacketRays != 0; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      stream.o[axis][i] = stream.o[axis][i - 1];
-      stream.d[axis][i] = stream.d[axis][i - 1];
-    }
-    stream.best_hi[i] = stream.best_hi[i - 1];
-    stream.omitted_id[i] = stream.omitted_id[i - 1];
-  }
-  __builtin_memset(stream.best_id, 0xff, sizeof stream.best_id);
-  static_assert(kNoPrimitive == 0xffffffff);
-}
-
-template <int N, bool kAny>
+/// kInstances must be true if the tree has instances. Otherwise, no ray has a scope of its own.
+template <int N, bool kAny, bool kInstances>
 class StreamWalk {
  public:
   /// Traces the rays and subtrees in `items`. If `items` is null, all rays traverse the whole tree.
@@ -77,13 +26,18 @@ class StreamWalk {
     for (std::uint32_t slot = 0; slot < kInFlight; ++slot) start(slot);
     while (sort_places() > 0) {
       for_each(nodes_, [&](Flight& flight, ChildRef& next) {
-        next = step_into<N, kAny>(tree_.nodes[next], flight.ray, flight.best.hi, flight.stack);
+        next = step_into<N, kAny, !kInstances>(scope(flight).nodes[next],
+                                               kInstances ? *flight.scope.box : flight.ray.box,
+                                               flight.ray.t_begin, flight.best.hi, flight.stack);
       });
       meet_blocks();
       for_each(others_, [&](Flight& flight, ChildRef& next) {
-        meet_leaf<N, kAny>(tree_, flight.ray, next, flight.best, fallback(flight));
+        meet_leaf<N, kAny>(tree_, scope(flight), flight.ray, flight.inner, next, flight.best,
+                           fallback(flight));
         next = next_after_leaf(flight);
       });
+      if constexpr (kInstances)
+        for_each(instances_, [&](Flight& flight, ChildRef& next) { meet_instance(flight, next); });
       for (int k = 0; k < finished_.size; ++k) finish(finished_.slot[k]);
     }
   }
@@ -94,11 +48,18 @@ class StreamWalk {
 
   struct alignas(64) Flight {
     KernelRay ray;
+    Scope scope;
     ClosestSoFar best;
     int number;
+    InnerRay inner;  // in the scope of an instance
     RayStack stack;
     BlockTest<N> test;
   };
+
+  // The tree that a ray traverses.
+  [[nodiscard]] const Scope& scope(const Flight& flight) const {
+    return kInstances ? flight.scope : whole_;
+  }
 
   struct List {
     int size = 0;
@@ -109,6 +70,23 @@ class StreamWalk {
     Flight* flight;
     const TriangleBlock* block;
   };
+
+  // Enters an instance, or leaves it if all of its subtrees have been visited.
+  void meet_instance(Flight& flight, ChildRef& next) {
+    if (next == kInstanceEnd) {
+      flight.scope.set(tree_, flight.ray);
+    } else {
+      const Instance& instance = tree_.instances[next - child_ref::kFirstInstance];
+      if (enter(instance, flight.ray, flight.inner)) {
+        flight.scope.set(instance, flight.inner);
+        flight.stack.push_instance_end();
+        next = instance.mesh->root;
+        return;
+      }
+      consider_instance(instance, flight.ray, flight.best, fallback(flight));
+    }
+    next = next_after_leaf(flight);
+  }
 
   // Starts the next ray, if there is one, in a slot.
   void start(std::uint32_t slot) {
@@ -127,10 +105,12 @@ class StreamWalk {
     for (int axis = 0; axis < 3; ++axis) {
       flight.ray.o[axis] = stream_.o[axis][i];
       flight.ray.d[axis] = stream_.d[axis][i];
-      flight.ray.near_factor[axis] = stream_.near[axis][i];
-      flight.ray.far_factor[axis] = stream_.far[axis][i];
+      flight.ray.box.near_factor[axis] = stream_.near[axis][i];
+      flight.ray.box.far_factor[axis] = stream_.far[axis][i];
     }
-    find_planes(flight.ray);
+    set_origin(flight.ray.o, flight.ray.box);
+    find_planes(flight.ray.d, flight.ray.box);
+    if constexpr (kInstances) flight.scope.set(tree_, flight.ray);
     flight.ray.t_min = stream_.t_min[i];
     flight.ray.t_begin = stream_.t_begin[i];
     flight.ray.d_sum = stream_.d_sum[i];
@@ -158,7 +138,7 @@ class StreamWalk {
     for (int k = 0; k < list.size; ++k) {
       const std::uint32_t slot = list.slot[k];
       visit(flights_[slot], next_[slot]);
-      fetch(next_[slot]);
+      fetch(next_[slot], scope(flights_[slot]));
     }
   }
 
@@ -167,8 +147,11 @@ class StreamWalk {
   void meet_blocks() {
     int hits = 0;
     for_each(leaves_, [&](Flight& flight, ChildRef& next) {
-      const TriangleBlock& block = tree_.blocks[first_entry(next)];
-      flight.test.run(block, flight.ray, flight.best.hi);
+      const TriangleBlock& block = scope(flight).blocks[first_entry(next)];
+      if (!kInstances || flight.scope.instance == nullptr)
+        flight.test.run(block, flight.ray, flight.best.hi);
+      else
+        flight.test.run(block, flight.inner, flight.ray.t_begin, flight.best.hi);
       hits_[hits] = {&flight, &block};
       hits += flight.test.maybe != 0;
       // The leaf's remaining blocks are pushed as a separate leaf.
@@ -180,8 +163,12 @@ class StreamWalk {
     });
     for (int k = 0; k < hits; ++k) {
       const auto [flight, block] = hits_[k];
-      meet_lanes<N, kAny>(tree_, *block, flight->test, flight->ray, flight->best,
-                          fallback(*flight));
+      if (const Instance* const instance = scope(*flight).instance)
+        meet_instance_lanes<N, kAny>(tree_, *instance, *block, flight->test, flight->ray,
+                                     flight->best, fallback(*flight));
+      else
+        meet_lanes<N, kAny>(tree_, *block, flight->test, flight->ray, flight->best,
+                            fallback(*flight));
       ++flight->stack.size;  // pushes the popped entry again, which may be beyond the new hit
       next_[flight - flights_] = next_after_leaf(*flight);
     }
@@ -201,7 +188,7 @@ class StreamWalk {
   // Sorts the slots in use by the kind of subtree that their rays visit next, and returns the
   // number of these slots. Avoids branches, which would often be mispredicted.
   int sort_places() {
-    nodes_.size = leaves_.size = others_.size = finished_.size = 0;
+    nodes_.size = leaves_.size = others_.size = instances_.size = finished_.size = 0;
     for (std::uint32_t first = 0; first < kInFlight; first += 8) {
       const auto list = [&](List& to, ChildRef least, ChildRef greatest) {
         const Lanes lanes = lanes_within(next_ + first, least, greatest);
@@ -214,23 +201,30 @@ class StreamWalk {
       list(leaves_, child_ref::kTriangles, child_ref::kOthers - 1);
       list(others_, child_ref::kOthers, kFinished - 1);
       list(finished_, kFinished, kFinished);
+      if constexpr (kInstances) list(instances_, child_ref::kFirstInstance, kInstanceEnd);
     }
-    return nodes_.size + leaves_.size + others_.size + finished_.size;
+    return nodes_.size + leaves_.size + others_.size + instances_.size + finished_.size;
   }
 
-  // Describes where the data of one kind of ChildRef is stored: at begin + (child & mask) * scale.
+  // Describes where the data of one kind of ChildRef is stored: at offset (child & mask) * scale.
   struct Place {
-    const char* begin;
     std::size_t mask, scale;
     std::size_t last;  // offset of the last cache line to prefetch, in bytes
   };
+  static constexpr Place kPlaces[4] = {{~child_ref::kKind, sizeof(WideNode), 192},
+                                       {~child_ref::kKind & ~7U, sizeof(TriangleBlock) / 8, 256},
+                                       {0, 0, 0},
+                                       {0, 0, 0}};
+  static_assert(sizeof(TriangleBlock) % 8 == 0);
 
   // Always inlined, because GCC removes calls of a function that only prefetches.
-  __attribute__((always_inline)) void fetch(ChildRef child) const {
-    const Place& slot = slots_[child >> 30U];
-    // A number instead of a pointer, because `begin` is null if there is no data of this kind.
-    const std::uintptr_t p =
-        reinterpret_cast<std::uintptr_t>(slot.begin) + (child & slot.mask) * slot.scale;
+  __attribute__((always_inline)) void fetch(ChildRef child, const Scope& scope) const {
+    const Place& slot = kPlaces[child >> 30U];
+    const bool is_leaf = (child & child_ref::kTriangles) != 0;
+    // Numbers instead of pointers, because the array is null if there is no data of this kind.
+    const std::uintptr_t begin = is_leaf ? reinterpret_cast<std::uintptr_t>(scope.blocks)
+                                         : reinterpret_cast<std::uintptr_t>(scope.nodes);
+    const std::uintptr_t p = begin + (child & slot.mask) * slot.scale;
     // NOLINTBEGIN(performance-no-int-to-ptr): only prefetched
     __builtin_prefetch(reinterpret_cast<const void*>(p));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 64));
@@ -244,16 +238,11 @@ class StreamWalk {
   KernelStream& stream_;
   const StreamFallback& slow_;
   const StreamItems* items_;
+  // The scope of all rays if there are no instances; `box` is not used.
+  const Scope whole_{tree_.nodes, tree_.blocks, tree_.others, nullptr, nullptr};
   int started_ = 0;  // number of rays or items started so far
-  List nodes_, leaves_, others_, finished_;
+  List nodes_, leaves_, others_, instances_, finished_;
   ChildRef next_[kInFlight];  // the subtree that the ray in each slot visits next
-  static_assert(sizeof(TriangleBlock) % 8 == 0);
-  const Place slots_[4] = {
-      {reinterpret_cast<const char*>(tree_.nodes), ~child_ref::kKind, sizeof(WideNode), 192},
-      {reinterpret_cast<const char*>(tree_.blocks), ~child_ref::kKind & ~7U,
-       sizeof(TriangleBlock) / 8, 256},
-      {reinterpret_cast<const char*>(tree_.others), 0, 0, 0},
-      {reinterpret_cast<const char*>(tree_.nodes), 0, 0, 0}};
   MaybeHit hits_[kInFlight + 1];
   Flight flights_[kInFlight];
 };
@@ -263,8 +252,10 @@ template <int N, int M>
 void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
   if (has_few_triangles<M>(tree))
     FewTrianglesWalk<M>(tree, stream, slow).run();
+  else if (tree.instances != nullptr)
+    StreamWalk<N, false, true>(tree, stream, slow, nullptr).run();
   else
-    StreamWalk<N, false>(tree, stream, slow, nullptr).run();
+    StreamWalk<N, false, false>(tree, stream, slow, nullptr).run();
 }
 
 /// M is the number of rays that packets test at a time.
@@ -274,7 +265,10 @@ void any_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallb
   OcclusionPacketWalk<M> packets(tree, stream, slow, items);
   for (int first = 0; first < stream.count; first += OcclusionPacketWalk<M>::kRays)
     packets.run(first);
-  StreamWalk<N, true>(tree, stream, slow, &items).run();
+  if (tree.instances != nullptr)
+    StreamWalk<N, true, true>(tree, stream, slow, &items).run();
+  else
+    StreamWalk<N, true, false>(tree, stream, slow, &items).run();
 }
 
 }  // namespace

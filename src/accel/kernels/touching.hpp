@@ -1,7 +1,7 @@
 #pragma once
 /// Finds the primitives near a box.
 
-#include "accel/kernels/block_test.hpp"
+#include "accel/kernels/box_tests.hpp"
 #include "accel/kernels/few_triangles.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/node_test.hpp"
@@ -10,131 +10,36 @@
 namespace microtrace {
 namespace {
 
-/// Returns the lanes in which [lo, hi] overlaps the box along an axis.
-template <int N>
-inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const BoxQuery& box, int axis) {
-  return less_equal<N>(lo, all<N>(box.hi[axis])) & less_equal<N>(all<N>(box.lo[axis]), hi);
-}
-
-template <int N>
-inline Lanes touched_children(const WideNode& node, const BoxQuery& box) {
-  Lanes lanes = 0;
-  for (int i = 0; i < kWidth; i += N) {
-    lanes |= (overlapping<N>(load<N>(node.lo_x + i), load<N>(node.hi_x + i), box, 0) &
-              overlapping<N>(load<N>(node.lo_y + i), load<N>(node.hi_y + i), box, 1) &
-              overlapping<N>(load<N>(node.lo_z + i), load<N>(node.hi_z + i), box, 2))
-             << i;
+/// Sets `inner` to a box in the space of an instance's mesh that contains every point whose image,
+/// rounded, may touch the query's box. The margins are those of InnerRay for an origin in the box.
+inline void enter(const Instance& instance, const BoxQuery& query, BoxQuery& inner) {
+  float c[3], half[3], distance = 0;
+  for (int j = 0; j < 3; ++j) {
+    const double t = instance.scene_from_mesh[9 + j];
+    const double lo = double{query.lo[j]} - t, hi = double{query.hi[j]} - t;
+    c[j] = static_cast<float>(0.5 * (lo + hi));
+    half[j] = static_cast<float>(0.5 * (hi - lo)) * (1 + 0x1p-20F);
+    distance += __builtin_fabsf(c[j]) + half[j];
   }
-  return lanes;
-}
-
-/// Returns the triangles whose bounding boxes overlap the box. Unused slots are NaN and overlap
-/// nothing.
-template <int N>
-inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) {
-  Lanes lanes = 0;
-  for (int i = 0; i < kWidth; i += N) {
-    Lanes touched = kAllLanes<N>;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Float<N> a = load<N>(block.a[axis] + i), b = load<N>(block.b[axis] + i),
-                     c = load<N>(block.c[axis] + i);
-      touched &= overlapping<N>(lesser(lesser(b, c), a), greater(greater(b, c), a), box, axis);
-    }
-    lanes |= touched << i;
+  const float reach = distance * (13 * 0x1p-24F) + instance.reach;
+  for (int i = 0; i < 3; ++i) {
+    const float(&row)[3] = instance.mesh_from_scene[i];
+    const float middle = row[0] * c[0] + row[1] * c[1] + row[2] * c[2];
+    const float extent = __builtin_fabsf(row[0]) * half[0] + __builtin_fabsf(row[1]) * half[1] +
+                         __builtin_fabsf(row[2]) * half[2];
+    const float margin = extent * (1 + 0x1p-20F) + instance.row_max[i] * reach;
+    // Finite, because infinite boxes overlap even unused slots. If the result is NaN, the box has
+    // this largest extent.
+    inner.lo[i] = greater(middle - margin, -__FLT_MAX__);
+    inner.hi[i] = lesser(middle + margin, __FLT_MAX__);
   }
-  return lanes;
-}
-
-/// Returns the triangles that the query omits.
-template <int N>
-inline Lanes omitted_triangles(const TriangleBlock& block, const BoxQuery& query) {
-  Lanes lanes = lanes_within(block.id, query.omitted_id, query.omitted_id);
-  if (query.plane_axis < 0) return lanes;
-  const float(*vertices[])[kWidth] = {block.a, block.b, block.c};
-  const Float<N> plane = all<N>(query.plane_at);
-  for (int i = 0; i < kWidth; i += N) {
-    Lanes within = kAllLanes<N>;
-    for (const auto* vertex : vertices) {
-      const Float<N> x = load<N>(vertex[query.plane_axis] + i);
-      within &= less_equal<N>(x, plane) & less_equal<N>(plane, x);
-    }
-    lanes |= within << i;
-  }
-  return lanes;
-}
-
-/// Boxes as their centers and half extents, which are rounded up.
-template <class F>
-struct CenteredBox {
-  F center[3], reach[3];
-
-  CenteredBox(const F (&lo)[3], const F (&hi)[3]) {
-    for (int k = 0; k < 3; ++k) {
-      center[k] = 0.5F * lo[k] + 0.5F * hi[k];
-      reach[k] = greater(hi[k] - center[k], center[k] - lo[k]) * (1 + 0x1p-20F);
-    }
-  }
-};
-
-/// Tests N triangles against one box, or one triangle against N boxes. Returns those of `lanes`
-/// whose triangle may touch the box. The others certainly don't, because, seen along some axis, the
-/// box is left of one edge and right of another. Long thin triangles often don't touch the box
-/// although their bounding boxes overlap it. Let A and B be the vectors from the center to an
-/// edge's ends, and r the half extents. The area A_i B_j - A_j B_i changes by at most r_i |B_j -
-/// A_j| + r_j |B_i - A_i| within the box. Each of its terms has three roundings; the rounding of
-/// the difference does not change its sign. Half of the eight units, and half of the margin of the
-/// half extents for second-order roundings, would suffice.
-template <int N, class Corner, class BoxPart>
-inline Lanes without_clear(Lanes lanes, const Corner (&vertices)[3][3],
-                           const CenteredBox<BoxPart>& box) {
-  using F = Float<N>;
-  F corners[3][3];
-  for (int corner = 0; corner < 3; ++corner) {
-    for (int axis = 0; axis < 3; ++axis)
-      corners[corner][axis] = vertices[corner][axis] - box.center[axis];
-  }
-  for (int axis = 0; axis < 3 && lanes != 0; ++axis) {
-    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-    Lanes any_positive = 0, any_negative = 0;
-    for (int corner = 0; corner < 3; ++corner) {
-      const F(&a)[3] = corners[corner];
-      const F(&b)[3] = corners[(corner + 1) % 3];
-      const F left = a[j] * b[k], right = a[k] * b[j], area = left - right;
-      const F error = (magnitude(left) + magnitude(right)) * (8 * kUnit) +
-                      (magnitude(a[k]) + magnitude(b[k])) * (box.reach[j] * (1 + 0x1p-20F)) +
-                      (magnitude(a[j]) + magnitude(b[j])) * (box.reach[k] * (1 + 0x1p-20F)) + kTiny;
-      any_positive |= less<N>(error, area);
-      any_negative |= less<N>(area, -error);
-    }
-    lanes &= ~(any_positive & any_negative);
-  }
-  return lanes;
-}
-
-/// The vertices of N triangles of a block, starting at i.
-template <int N>
-struct BlockVertices {
-  Float<N> at[3][3];
-
-  BlockVertices(const TriangleBlock& block, int i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      at[0][axis] = load<N>(block.a[axis] + i);
-      at[1][axis] = load<N>(block.b[axis] + i);
-      at[2][axis] = load<N>(block.c[axis] + i);
-    }
-  }
-};
-
-/// Adds a slot to the results unless there are too many; returns whether there are.
-inline bool adds_too_many(BoxQuery& query, std::uint32_t slot) {
-  if (query.count == BoxQuery::kMost) query.count = -1;
-  if (query.count >= 0) query.slots[query.count++] = slot;
-  return query.count < 0;
 }
 
 /// The state of a query's traversal.
 struct BoxSearch {
   int size;
+  const Instance* instance;  ///< null in the scene's tree
+  BoxQuery inner;            ///< the box in the space of the instance's mesh
   ChildRef stack[kStackSize + kWidth];
 };
 
@@ -142,11 +47,23 @@ struct BoxSearch {
 template <int N>
 inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   const ChildRef next = search.stack[--search.size];
+  const Instance* const instance = search.instance;
   if ((next & child_ref::kKind) == 0) {
-    const WideNode& node = tree.nodes[next];
-    const Lanes lanes = touched_children<N>(node, query);
+    const WideNode& node = instance == nullptr ? tree.nodes[next] : instance->mesh->nodes[next];
+    const Lanes lanes = touched_children<N>(node, instance == nullptr ? query : search.inner);
     store_lanes(lanes, node.child, search.stack + search.size);
     search.size += __builtin_popcount(lanes);
+    return;
+  }
+  if (next == kInstanceEnd) {
+    search.instance = nullptr;
+    return;
+  }
+  if (is_instance(next)) {
+    search.instance = &tree.instances[next - child_ref::kFirstInstance];
+    enter(*search.instance, query, search.inner);
+    search.stack[search.size++] = kInstanceEnd;
+    search.stack[search.size++] = search.instance->mesh->root;
     return;
   }
   const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
@@ -154,10 +71,18 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   bool overflows = false;
   for (std::uint32_t i = first; i < end && !overflows; ++i) {
     if (!are_triangles) {
-      overflows = adds_too_many(query, kOtherSlot + i);
+      overflows =
+          instance == nullptr
+              ? adds_too_many(query, kOtherSlot + i)
+              : adds_too_many(query, kIdSlot, instance->first_id + instance->mesh->others[i]);
       continue;
     }
-    const TriangleBlock& block = tree.blocks[i];
+    TriangleBlock placed;
+    if (instance != nullptr) {
+      if (touched_triangles<N>(instance->mesh->blocks[i], search.inner) == 0) continue;
+      tree.scene_block(*instance, instance->mesh->blocks[i], placed);
+    }
+    const TriangleBlock& block = instance == nullptr ? tree.blocks[i] : placed;
     Lanes lanes = touched_triangles<N>(block, query);
     if (lanes != 0) lanes &= ~omitted_triangles<N>(block, query);
     if (lanes != 0) {  // often false on axis-aligned walls
@@ -168,8 +93,11 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
         lanes |= without_clear<N>(these >> k, BlockVertices<N>(block, k).at, box) << k;
       }
     }
-    for (; lanes != 0 && !overflows; lanes &= lanes - 1)
-      overflows = adds_too_many(query, i * kWidth + static_cast<std::uint32_t>(first_lane(lanes)));
+    for (; lanes != 0 && !overflows; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(first_lane(lanes));
+      overflows = instance == nullptr ? adds_too_many(query, i * kWidth + lane)
+                                      : adds_too_many(query, kIdSlot, block.id[lane]);
+    }
   }
   if (overflows) search.size = 0;
 }
@@ -244,15 +172,18 @@ template <int N, int M>
 void touching(const TreeView& tree, BoxQuery* queries, int count) {
   if (has_few_triangles<M>(tree)) return FewTrianglesSearch<M>(tree, queries, count).run();
   BoxSearch searches[kBoxQueries];
-  int going[kBoxQueries];
+  int going[kBoxQueries], left = 0;
   for (int i = 0; i < count; ++i) {
     searches[i].size = 1;
+    searches[i].instance = nullptr;
     searches[i].stack[0] = tree.root;
     queries[i].count = 0;
-    going[i] = i;
+    going[left] = i;
+    left += queries[i].lo[0] <= queries[i].hi[0] ? 1 : 0;  // skips empty boxes
   }
+  count = left;
   while (count > 0) {
-    int left = 0;
+    left = 0;
     for (int k = 0; k < count; ++k) {
       const int i = going[k];
       step<N>(tree, searches[i], queries[i]);

@@ -38,7 +38,7 @@ class ClosestHit {
   [[nodiscard]] std::optional<Hit> rounded(const ExactHits& exactly) const {
     if (!found_) return std::nullopt;
     const auto below = static_cast<float>(lo_), above = static_cast<float>(hi_);
-    return Hit{.id = id_, .t = below == above ? below : exactly.t(id_)};
+    return Hit{.id = id_, .t = below == above ? below + 0.0F : exactly.t(id_)};
   }
 
  private:

@@ -60,7 +60,8 @@ Hit HitResolver::hit(std::uint32_t id) const {
     if (filterable_ && is_filterable(shape)) {
       const FilterResult filtered = filtered_by(shape);
       const auto below = static_cast<float>(filtered.lo), above = static_cast<float>(filtered.hi);
-      if (filtered.certainty == Certainty::hit && below == above) return Hit{.id = id, .t = below};
+      if (filtered.certainty == Certainty::hit && below == above)
+        return Hit{.id = id, .t = below + 0.0F};  // -0 becomes 0
     }
     return Hit{.id = id, .t = ExactHits(*primitives_, *ray_).t(id)};
   });

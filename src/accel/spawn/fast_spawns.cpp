@@ -125,7 +125,8 @@ bool FastSpawns::is_alone(std::size_t hit) const {
       return is_filterable(shape) && (is_in_plane(shape) || clears_box(shape, p, reach));
     });
   };
-  const auto is_passed = [&](std::uint32_t slot) {
+  const auto is_passed = [&](const std::uint32_t& slot) {
+    if (slot == kIdSlot) return is_primitive_passed(found.ids[&slot - found.slots]);
     if (slot >= kOtherSlot) return is_primitive_passed(tree_->others[slot - kOtherSlot]);
     return clears_box(triangle_at(*tree_, slot), p, reach);
   };

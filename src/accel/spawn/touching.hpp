@@ -2,6 +2,7 @@
 /// Finds the primitives of a tree near a box.
 
 #include "accel/build/tree.hpp"
+#include "accel/instances/tree_reader.hpp"
 #include "accel/layout.hpp"
 
 #include <array>
@@ -20,14 +21,17 @@ namespace microtrace {
 /// other primitives nearby, and more than once for a primitive.
 template <class F>
 void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
-  std::array<ChildRef, kMaxDepth*(kWidth - 1) + 1> stack;
+  std::array<ChildRef, kTraversalStack> stack;
   std::size_t size = 0;
   stack[size++] = tree.root;
+  TreeReader reader(tree);
   while (size > 0) {
-    const ChildRef next = stack[--size];
+    ChildRef next = stack[--size];
+    if (reader.leave(next)) continue;
+    if (reader.enter(next)) stack[size++] = child_ref::kInstanceEnd;
     const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, count = (next & 7U) + 1;
     if ((next & child_ref::kKind) == 0) {
-      const WideNode& node = tree.nodes[next];
+      const WideNode& node = reader.node(next);
       for (int i = 0; i < kWidth; ++i) {
         const bool touches = node.lo_x[i] <= box.hi.x && box.lo.x <= node.hi_x[i] &&
                              node.lo_y[i] <= box.hi.y && box.lo.y <= node.hi_y[i] &&
@@ -36,14 +40,14 @@ void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
       }
     } else if ((next & child_ref::kKind) == child_ref::kTriangles) {
       for (std::uint32_t b = first; b < first + count; ++b) {
-        const TriangleBlock& block = tree.blocks[b];
+        const TriangleBlock& block = reader.block(b);
         for (int i = 0; i < kWidth; ++i) {
           const bool used = block.a[0][i] == block.a[0][i];  // unused slots have NaN
           if (used) f(block.id[i]);
         }
       }
     } else {
-      for (std::uint32_t k = first; k < first + count; ++k) f(tree.others[k]);
+      for (std::uint32_t k = first; k < first + count; ++k) f(reader.other(k));
     }
   }
 }

@@ -31,6 +31,10 @@ std::uint32_t parse_times(const OptionValue& value) {
   return count;
 }
 
+constexpr std::array kInstancings{Choice<Instancing>{"auto", Instancing::automatic},
+                                  Choice<Instancing>{"share", Instancing::shared},
+                                  Choice<Instancing>{"copy", Instancing::copied}};
+
 constexpr std::array kAssetOptions{
     Option{.names = "--time",
            .metavar = "S",
@@ -86,6 +90,16 @@ constexpr std::array kAssetOptions{
            .default_value = "the materials assigned in the file",
            .samples = Samples::change,
            .set = [](Arguments& a, const OptionValue& value) { a.load.variant = value.text; }},
+    Option{.names = "--instances",
+           .metavar = "HOW",
+           .help = "how meshes are stored that a glTF asset contains several times: share (once), "
+                   "copy (faster rays, more memory), or auto (share if copies would have more than "
+                   "2^20 triangles); pictures don't depend on it",
+           .default_value = "auto",
+           .samples = Samples::keep,
+           .words = [] { return names_of(kInstancings); },
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.load.instancing = value.choice(kInstancings); }},
     Option{.names = "--allow-path",
            .metavar = "FOLDER",
            .help = "additional folder from which a glTF asset may load files, and into which the "

@@ -132,7 +132,11 @@ std::optional<BopModel> bop_model(const Scene& scene, std::uint32_t object, cons
   const auto* mesh = std::get_if<Mesh>(&shape);
   const bool has_normals = mesh != nullptr && !mesh->normals.empty();
   using Corners = std::array<std::uint32_t, 3>;
-  const Array<Corners> triangles = mesh != nullptr ? mesh->triangles : Array<Corners>{{0, 1, 2}};
+  std::vector<Corners> triangles{{0, 1, 2}};
+  if (mesh != nullptr) {
+    triangles.resize(mesh->triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = mesh->corners(i);
+  }
 
   std::string ply = ply_header(positions.size(), triangles.size(), has_normals);
   std::vector<Vec3> stored;
@@ -143,7 +147,7 @@ std::optional<BopModel> bop_model(const Scene& scene, std::uint32_t object, cons
   DVec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (std::size_t i = 0; i < points.size(); ++i) {
     append_vector(ply, stored[i]);
-    if (has_normals) append_vector(ply, mesh->normals[i]);
+    if (has_normals) append_vector(ply, mesh->normal(i));
     low = glm::min(low, points[i]);
     high = glm::max(high, points[i]);
   }

@@ -17,7 +17,8 @@ PixelRect part_of(const Mesh& mesh, const Camera& camera, const RayGenerator& ra
                   const PixelRect& window) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Vec3 lo(kInfinity), hi(-kInfinity);
-  for (const Vec3& position : mesh.positions) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vec3 position = mesh.position(i);
     lo = glm::min(lo, position);
     hi = glm::max(hi, position);
   }

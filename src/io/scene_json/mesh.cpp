@@ -96,6 +96,7 @@ struct MeshFiles::File {
   MemoryAccount memory;
   std::string bytes{};
   std::optional<GltfFile> reader{};
+  std::size_t uses = 0;  // number of objects that are read from the file
 };
 
 MeshFiles::MeshFiles(const std::filesystem::path& folder, const LoadOptions& options)
@@ -123,9 +124,13 @@ LoadedScene MeshFiles::read(const JsonReader& json) {
   const auto transform = json.find("transform");
   const DMat4 world_from_asset = transform ? read_transform(*transform) : DMat4(1);
   std::unique_ptr<File>& opened = files_[file.value().string];
-  if (!opened) opened = open(file, path);
-  LoadedScene result = opened->reader->placed(options_.time, world_from_asset);
-  if (--uses_[file.value().string] == 0) files_.erase(file.value().string);
+  std::size_t& uses = uses_[file.value().string];
+  if (!opened) {
+    opened = open(file, path);
+    opened->uses = uses;
+  }
+  LoadedScene result = opened->reader->placed(options_.time, world_from_asset, opened->uses);
+  if (--uses == 0) files_.erase(file.value().string);
   return result;
 }
 

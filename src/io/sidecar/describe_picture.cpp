@@ -109,7 +109,7 @@ std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origi
 }
 
 std::string object_text(const Object& object, std::size_t id, const io::SeenPixels* seen,
-                        const DVec3& origin) {
+                        const DVec3& origin, ChunkedMeshes& chunks) {
   std::string text = "{\"id\": " + std::to_string(id);
   text.append(", \"name\": ").append(quoted(object.name));
   text.append(", \"type\": \"").append(type_name(object.shape)).append("\"");
@@ -122,7 +122,7 @@ std::string object_text(const Object& object, std::size_t id, const io::SeenPixe
     text.append(seen->count > 0 ? array({box.x0, box.y0, box.x1, box.y1}) : "null");
   }
   text.append(", \"world_box\": ");
-  if (const auto extent = extent_of(object.shape)) {
+  if (const auto extent = extent_of(object.shape, chunks)) {
     text.append("{\"min\": ").append(array(origin + DVec3(extent->low)));
     text.append(", \"max\": ").append(array(origin + DVec3(extent->high))).append("}");
   } else {
@@ -162,8 +162,9 @@ std::string describe_picture(const Scene& scene, const Camera& camera, const Fil
   }
   text.append(",\n  \"camera\": ").append(camera_text(camera, film.whole, scene.origin));
   text.append(",\n  \"objects\": ");
+  ChunkedMeshes chunks;
   text.append(list(scene.objects.size(), [&](std::size_t i) {
-    return object_text(scene.objects[i], i + 1, seen ? &(*seen)[i] : nullptr, scene.origin);
+    return object_text(scene.objects[i], i + 1, seen ? &(*seen)[i] : nullptr, scene.origin, chunks);
   }));
   text.append(",\n  \"materials\": ");
   text.append(list(scene.materials.size(), [&](std::size_t i) {

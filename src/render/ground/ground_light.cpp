@@ -18,8 +18,9 @@ double irradiance(const FoundLight& light) {
 }  // namespace
 
 GroundLight::GroundLight(const Scene& scene, const EnvironmentLight* environment) : scene_(scene) {
+  ChunkedMeshes chunks;
   for (const Object& object : scene.objects) {
-    const std::optional<Extent> extent = extent_of(object.shape);
+    const std::optional<Extent> extent = extent_of(object.shape, chunks);
     if (extent && (!lowest_ || extent->low.y < *lowest_)) lowest_ = extent->low.y;
   }
   if (environment != nullptr) sky_.emplace(*environment);

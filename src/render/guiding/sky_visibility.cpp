@@ -55,8 +55,9 @@ struct SkyVisibility::Start {
 SkyVisibility::SkyVisibility(const Scene& scene, const Bvh& bvh, const Shading& shading)
     : bvh_(bvh), shading_(shading) {
   std::optional<Extent> bounds;
+  ChunkedMeshes chunks;
   for (const Object& object : scene.objects) {
-    const std::optional<Extent> extent = extent_of(object.shape);
+    const std::optional<Extent> extent = extent_of(object.shape, chunks);
     if (!extent) continue;
     if (!bounds) bounds = extent;
     bounds = Extent{.low = glm::min(bounds->low, extent->low),

@@ -11,8 +11,8 @@ void put_tangents(VertexGroup& group, int lane, const Mesh* mesh,
   group.handedness[lane] = 0;
   if (mesh == nullptr || mesh->tangents.empty()) return;
   for (std::size_t corner = 0; corner < 3; ++corner)
-    put(group.tangents[corner], lane, Vec3(mesh->tangents[corners[corner]]));
-  group.handedness[lane] = mesh->tangents[corners[0]].w;
+    put(group.tangents[corner], lane, Vec3(mesh->tangent(corners[corner])));
+  group.handedness[lane] = mesh->tangent(corners[0]).w;
 }
 
 void put_texel(NormalMapLanes& lanes, int lane, const Vec3& texel, float scale) {
@@ -39,7 +39,7 @@ void put_point(VertexGroup& group, int lane, const ShadingPoint& point) {
   group.width[lane] = point.width;
   group.on_mesh[lane] = at.mesh != nullptr ? 1 : 0;
   for (std::size_t corner = 0; corner < 3 && at.mesh != nullptr; ++corner)
-    put(hits.corners[corner], lane, at.mesh->positions[at.corners[corner]]);
+    put(hits.corners[corner], lane, at.mesh->position(at.corners[corner]));
 
   const TexturedMaterial& look = *point.look;
   const TextureSlot& base = look[MaterialTexture::normal];

@@ -1,7 +1,9 @@
 #include "render/prepared/recentered.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <type_traits>
+#include <unordered_map>
 #include <variant>
 
 namespace microtrace {
@@ -13,10 +15,12 @@ template <class AnyShape, class F>
 bool for_each_point(AnyShape& shape, const F& f) {
   using Kind = std::remove_const_t<AnyShape>;
   if constexpr (std::is_same_v<Kind, Mesh>) {
-    if constexpr (std::is_const_v<AnyShape>)
-      for (const Vec3& p : shape.positions) f(p);
-    else
+    if constexpr (std::is_const_v<AnyShape>) {
+      for (std::size_t i = 0; i < shape.positions.size(); ++i) f(shape.position(i));
+    } else {
+      if (shape.placement) shape = baked(shape);
       for (Vec3& p : shape.positions.edit()) f(p);
+    }
   } else if constexpr (std::is_same_v<Kind, Triangle>) {
     f(shape.a);
     f(shape.b);
@@ -42,8 +46,23 @@ bool for_each_point_of_shapes(AnyScene& scene, const F& f) {
 
 std::optional<PointBounds> bounds_of_points(const Scene& scene) {
   PointBounds bounds;
-  if (!for_each_point_of_shapes(scene, [&](const Vec3& p) { bounds.add(DVec3(p)); }))
-    return std::nullopt;
+  const auto add = [&](const Vec3& p) { bounds.add(DVec3(p)); };
+  std::unordered_map<const Vec3*, PointBounds> boxes;  // of shared meshes, by their positions
+  for (const Object& object : scene.objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh == nullptr || !mesh->placement) {
+      const bool is_defined =
+          std::visit([&](const auto& shape) { return for_each_point(shape, add); }, object.shape);
+      if (!is_defined) return std::nullopt;
+      continue;
+    }
+    // There may be millions of instances, so the box of an instance is that of its mesh's corners.
+    const auto [box, is_new] = boxes.try_emplace(mesh->positions.data());
+    if (is_new)
+      for (const Vec3& p : mesh->positions) box->second.add(DVec3(p));
+    if (mesh->positions.empty()) continue;
+    for (const DVec3& corner : corners_of(box->second)) bounds.add(mesh->placement->point(corner));
+  }
   return bounds;
 }
 

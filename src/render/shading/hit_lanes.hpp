@@ -15,11 +15,11 @@ namespace microtrace {
 template <int width>
 void put_attributes(HitArrays<width>& lanes, int lane, const Mesh& mesh,
                     const std::array<std::uint32_t, 3>& corners) {
-  const Vec3* normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
+  const bool has_normals = !mesh.normals.empty();
   const Vec2* uvs = has_uv(mesh) ? mesh.uv_sets[0].data() : nullptr;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t corner = corners[i];
-    put(lanes.normals[i], lane, normals == nullptr ? Vec3(0) : normals[corner]);
+    put(lanes.normals[i], lane, has_normals ? mesh.normal(corner) : Vec3(0));
     const Vec2 uv = uvs == nullptr ? Vec2(0) : uvs[corner];
     lanes.uv[i][0][lane] = uv.x;
     lanes.uv[i][1][lane] = uv.y;
@@ -29,8 +29,7 @@ void put_attributes(HitArrays<width>& lanes, int lane, const Mesh& mesh,
 template <int width>
 void put_positions(HitArrays<width>& lanes, int lane, const Mesh& mesh,
                    const std::array<std::uint32_t, 3>& corners) {
-  const Vec3* positions = mesh.positions.data();
-  for (std::size_t i = 0; i < 3; ++i) put(lanes.corners[i], lane, positions[corners[i]]);
+  for (std::size_t i = 0; i < 3; ++i) put(lanes.corners[i], lane, mesh.position(corners[i]));
 }
 
 /// Sets the attributes that interpolate() computes. at.mesh must be set.

@@ -18,7 +18,7 @@ void Shading::find_points(const ShadingKernels& kernels,
     group.meshes[i] = entry.mesh;
     if (entry.mesh == nullptr) continue;
     on_meshes |= bit;
-    group.corners[i] = entry.mesh->triangles[ids[i] - entry.first_id];
+    group.corners[i] = entry.mesh->corners(ids[i] - entry.first_id);
     put_positions(group.lanes, lane, *entry.mesh, group.corners[i]);
     const bool has_attributes = !entry.mesh->normals.empty() || has_uv(*entry.mesh);
     if (!has_attributes && (group.with_attributes & bit) == 0) continue;

@@ -104,7 +104,15 @@ void Shading::find_open_fronts() {
       return;
     }
     const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
-    for (PrimitiveId id = entry.first_id; id < end; ++id) open_fronts_[id / 32] |= 1U << id % 32;
+    for (PrimitiveId id = entry.first_id; id < end;) {
+      if (id % 32 == 0 && end - id >= 32) {
+        open_fronts_[id / 32] = ~0U;
+        id += 32;
+      } else {
+        open_fronts_[id / 32] |= 1U << id % 32;
+        ++id;
+      }
+    }
   }
 }
 

@@ -47,8 +47,10 @@ Vec4 vertex_color(const Mesh* mesh, const std::array<std::uint32_t, 3>& corners,
 
 Vec4 SurfacePoint::tangent() const {
   if (mesh == nullptr || mesh->tangents.empty()) return Vec4(0);
-  const Vec3 sum(weighed(corners, barycentrics, mesh->tangents));
-  const Tangent<1> tangent = tangent_along<1>(sum, mesh->tangents[corners[0]].w, ns);
+  const Vec4 first = mesh->tangent(corners[0]);
+  const Vec3 sum(barycentrics.x * first + barycentrics.y * mesh->tangent(corners[1]) +
+                 barycentrics.z * mesh->tangent(corners[2]));
+  const Tangent<1> tangent = tangent_along<1>(sum, first.w, ns);
   return tangent.handedness == 0 ? Vec4(0) : Vec4(tangent.t, tangent.handedness);
 }
 
@@ -57,7 +59,7 @@ SurfacePoint surface_point(const Primitives& primitives, const Ray& ray, const H
   if (mesh == nullptr) return rounded(interact(primitives, ray, hit), ray, hit);
   SurfacePoint at;
   at.mesh = mesh;
-  at.corners = mesh->triangles[triangle];
+  at.corners = mesh->corners(triangle);
   HitArrays<1> lanes;
   put(lanes.o, 0, ray.o);
   put(lanes.d, 0, ray.d);
@@ -74,13 +76,13 @@ SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, const Vec3& b
                            bool front) {
   SurfacePoint at;
   at.mesh = &mesh;
-  at.corners = mesh.triangles[triangle];
+  at.corners = mesh.corners(triangle);
   at.barycentrics = barycentrics;
   at.front = front;
-  at.p = weighed(at.corners, barycentrics, mesh.positions);
-  const DVec3 a(mesh.positions[at.corners[0]]);
-  const DVec3 n = glm::cross(DVec3(mesh.positions[at.corners[1]]) - a,
-                             DVec3(mesh.positions[at.corners[2]]) - a);
+  const Triangle t = triangle_of(mesh, triangle);
+  at.p = barycentrics.x * t.a + barycentrics.y * t.b + barycentrics.z * t.c;
+  const DVec3 a(t.a);
+  const DVec3 n = glm::cross(DVec3(t.b) - a, DVec3(t.c) - a);
   const double area = std::sqrt(glm::dot(n, n));
   if (!(area > 0)) return at;
   HitArrays<1> lanes;

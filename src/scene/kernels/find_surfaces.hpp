@@ -66,7 +66,7 @@ inline Lanes find_surfaces_from(int first, const Ray* rays, const SurfaceParts& 
   for (int i = 0; i < N; ++i) {
     from[i] = first + ((lanes >> i & 1U) != 0 ? i : __builtin_ctz(lanes));
     meshes[i] = batch.mesh[from[i]];
-    corners[i] = meshes[i]->corners + std::size_t{3} * batch.primitive[from[i]];
+    corners[i] = batch.corners[from[i]];
   }
   const auto at_corners = [&](const auto& make) {
     return TriangleCorners<N>{make(0), make(1), make(2)};

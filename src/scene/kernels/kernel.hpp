@@ -28,7 +28,8 @@ struct alignas(64) SurfaceBatch {
 
   /// The lanes with triangles, one bit each. Values in the other lanes are undefined.
   std::uint64_t triangles;
-  Values<const MeshArrays*> mesh;  ///< set in lanes with triangles
+  Values<const MeshArrays*> mesh;        ///< set in lanes with triangles
+  Values<const std::uint32_t*> corners;  ///< the triangle's three vertex indices; set as `mesh`
   Values<std::uint32_t> object, primitive;
   // The kernel sets the members below, in lanes with triangles.
   Values<double> p[3];

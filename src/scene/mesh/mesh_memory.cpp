@@ -20,7 +20,8 @@ std::uint64_t memory_of(const Mesh& mesh) {
 std::uint64_t memory_of(const Scene& scene) {
   std::uint64_t result = scene.objects.size() * sizeof(Object);
   for (const Object& object : scene.objects) {
-    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) result += memory_of(*mesh);
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh != nullptr && !mesh->placement) result += memory_of(*mesh);
   }
   return result;
 }

@@ -20,8 +20,9 @@ MeshArrays arrays_of(const Mesh& mesh) {
           .uv = has_uv ? mesh.uv_sets[0].data() : nullptr};
 }
 
+constexpr std::array<std::uint32_t, 3> kCorners{0, 1, 2};
+
 MeshArrays arrays_of(const Triangle& triangle) {
-  static constexpr std::array<std::uint32_t, 3> kCorners{0, 1, 2};
   static_assert(sizeof(Triangle) == 3 * sizeof(Vec3));
   return {.positions = &triangle.a, .corners = kCorners.data()};
 }
@@ -29,6 +30,26 @@ MeshArrays arrays_of(const Triangle& triangle) {
 MeshArrays arrays_of(const auto&) {
   return {};
 }
+
+/// A triangle of a placed mesh, with transformed vertices.
+struct PlacedTriangle {
+  Triangle triangle;
+  Vec3 normals[3];
+  Vec2 uv[3];
+  MeshArrays arrays;
+
+  void set(const Mesh& mesh, const MeshArrays& from, PrimitiveId primitive) {
+    const auto corners = mesh.corners(primitive);
+    triangle = triangle_of(mesh, primitive);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (from.normals != nullptr) normals[k] = mesh.normal(corners[k]);
+      if (from.uv != nullptr) uv[k] = from.uv[corners[k]];
+    }
+    arrays = arrays_of(triangle);
+    arrays.normals = from.normals == nullptr ? nullptr : normals;
+    arrays.uv = from.uv == nullptr ? nullptr : uv;
+  }
+};
 
 void set(SurfaceBatch& batch, std::size_t i, const SurfaceInteraction& at) {
   for (glm::length_t axis = 0; axis < 3; ++axis) {
@@ -50,8 +71,10 @@ SurfaceFinder::SurfaceFinder(const Primitives& primitives) : primitives_(primiti
   const std::vector<Object>& objects = primitives.scene().objects;
   entries_.reserve(objects.size());
   for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto* mesh = std::get_if<Mesh>(&objects[i].shape);
     entries_.push_back(
         {.mesh = std::visit([](const auto& shape) { return arrays_of(shape); }, objects[i].shape),
+         .placed = mesh != nullptr && mesh->placement ? mesh : nullptr,
          .first_id = primitives.first_id_of(i),
          .count = static_cast<PrimitiveId>(primitive_count(objects[i].shape))});
   }
@@ -81,10 +104,18 @@ void SurfaceFinder::find(std::span<const Ray> rays, Hits hits, const SurfacePart
                          SurfaceBatch& batch, const SceneKernels& kernels) const {
   std::uint64_t others = 0;
   batch.triangles = 0;
+  std::array<PlacedTriangle, kSurfaceLanes> placed;  // left uninitialized, as most have none
   for_each(hits, [&](std::size_t i, const Entry& entry, PrimitiveId id) {
     batch.object[i] = static_cast<std::uint32_t>(&entry - entries_.data());
     batch.primitive[i] = id - entry.first_id;
     batch.mesh[i] = &entry.mesh;
+    if (entry.placed != nullptr) {
+      placed[i].set(*entry.placed, entry.mesh, batch.primitive[i]);
+      batch.mesh[i] = &placed[i].arrays;
+      batch.corners[i] = kCorners.data();
+    } else if (entry.mesh.corners != nullptr) {
+      batch.corners[i] = entry.mesh.corners + std::size_t{3} * batch.primitive[i];
+    }
     (entry.mesh.positions != nullptr ? batch.triangles : others) |= std::uint64_t{1} << i;
   });
   if (batch.triangles != 0)

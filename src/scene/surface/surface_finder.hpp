@@ -35,7 +35,8 @@ class SurfaceFinder {
 
  private:
   struct Entry {
-    MeshArrays mesh;  // positions is null for shapes without triangles
+    MeshArrays mesh;     // positions is null for shapes without triangles
+    const Mesh* placed;  // a placed mesh, whose arrays need a transform; otherwise null
     PrimitiveId first_id, count;
   };
 

@@ -1,4 +1,5 @@
 #include "scene/material_textures.hpp"
+#include "scene/mesh/shared_meshes.hpp"
 #include "scene/validate/check_indices.hpp"
 #include "scene/validate/validate.hpp"
 
@@ -83,16 +84,24 @@ void check_references(const Scene& scene) {
 }  // namespace
 
 void check_indices(const Scene& scene) {
+  SharedMeshes checked;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const auto* mesh = std::get_if<Mesh>(&scene.objects[i].shape);
-    if (mesh == nullptr) continue;
+    if (mesh == nullptr || !checked.add(*mesh)) continue;
     if (const auto broken = broken_index(*mesh)) refuse(item("objects", i) + "/shape", *broken);
   }
   check_references(scene);
 }
 
 void validate(const Scene& scene) {
+  SharedMeshes checked;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const auto* mesh = std::get_if<Mesh>(&scene.objects[i].shape);
+    if (mesh != nullptr && mesh->placement) {
+      if (const auto broken = broken_placement(*mesh))
+        refuse(item("objects", i) + "/shape", *broken);
+      if (!checked.add(*mesh)) continue;
+    }
     if (const auto broken = validate(scene.objects[i].shape))
       refuse(item("objects", i) + "/shape", *broken);
   }

@@ -222,6 +222,16 @@ std::optional<BrokenRule> broken_index(const Mesh& mesh) {
   return check_primitives(mesh);
 }
 
+std::optional<BrokenRule> broken_placement(const Mesh& mesh) {
+  if (!mesh.segments.empty()) return BrokenRule{"segments", "must be empty if the mesh is placed"};
+  for (int k = 0; k < 4; ++k) {
+    const DVec3& column = mesh.placement->column(k);
+    if (!is_finite(column.x) || !is_finite(column.y) || !is_finite(column.z))
+      return BrokenRule{"placement", "must be finite"};
+  }
+  return std::nullopt;
+}
+
 std::optional<BrokenRule> validate(const Shape& shape) {
   return std::visit([](const auto& s) { return check(s); }, shape);
 }

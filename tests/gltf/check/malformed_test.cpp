@@ -227,11 +227,23 @@ TEST(GltfMalformed, TooManyInstancesAreRefusedBeforeAllocation) {
     asset.json["scenes"][0]["nodes"].push_back(i);
   }
   try {
-    (void)load(asset);
+    (void)load(asset, {.instancing = Instancing::copied});
     FAIL() << "accepted 2049 * 2^16 triangles";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), kLimit);
     EXPECT_EQ(error.diagnostic().pointer, "/nodes/2048/mesh");
+  }
+  EXPECT_EQ(load(asset).scene.objects.size(), 2049U);  // shared
+  for (std::size_t i = 2049; i < 65536; ++i) {
+    asset.json["nodes"].push_back({{"mesh", 0}});
+    asset.json["scenes"][0]["nodes"].push_back(i);
+  }
+  try {
+    (void)load(asset);
+    FAIL() << "accepted 2^32 triangles";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kLimit);
+    EXPECT_EQ(error.diagnostic().pointer, "/nodes/65535/mesh");
   }
 }
 

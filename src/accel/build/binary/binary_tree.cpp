@@ -204,8 +204,8 @@ class Builder {
   // Builds a subtree recursively. The recursion is at most a few levels deeper than kDepthLimit.
   void build_alone(const Set& set, NodeArena& arena, Bins& bins) {
     const BinaryNode& node = *set.node;
-    const bool of_one_kind = node.weight == node.count || node.count <= 1;
-    if (of_one_kind && node.weight <= kMaxLeafWeight) {
+    const bool of_one_kind = node.weight == node.count && node.weight <= kMaxLeafWeight;
+    if (of_one_kind || node.count <= 1) {
       const auto leaf = references(set);
       for (std::size_t i = 0; i < leaf.size(); ++i) tree_.ids[node.begin + i] = leaf[i].id();
       return;

@@ -26,6 +26,10 @@ struct BinaryNode {
   CollapsePlan plan;
 };
 
+[[nodiscard]] inline bool is_instance(const BinaryNode& node) {
+  return node.count == 1 && node.weight == kInstanceWeight;
+}
+
 /// Allocates nodes with stable addresses.
 class NodeArena {
  public:

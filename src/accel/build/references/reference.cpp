@@ -78,13 +78,16 @@ bool fits_blocks(const Box& b) {
   return size[0] <= kLargestInBlocks && size[1] <= kLargestInBlocks && size[2] <= kLargestInBlocks;
 }
 
-References gather(const Primitives& primitives) {
+References gather(const Primitives& primitives, const std::vector<bool>& is_instance) {
   References references;
+  const std::vector<Object>& objects = primitives.scene().objects;
   std::size_t count = 0;
-  primitives.for_each([&](PrimitiveId, const auto&) { ++count; });
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (!is_instance[i]) count += primitive_count(objects[i].shape);
   references.bounded.reserve(count);
   references.hashes.reserve(count);
-  primitives.for_each(Gatherer(references));
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (!is_instance[i]) primitives.for_each_of(i, Gatherer(references));
   std::uint64_t weight = 0;
   for (const Reference& r : references.bounded) weight += r.weight();
   if (weight > kMostWeight)

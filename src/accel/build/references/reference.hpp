@@ -12,11 +12,14 @@ namespace microtrace::build {
 /// a time, but other primitives one at a time.
 inline constexpr std::uint32_t kTriangleWeight = 1;
 inline constexpr std::uint32_t kOtherWeight = 8;
+/// More than a leaf may hold, so instances are never in leaves with other primitives.
+inline constexpr std::uint32_t kInstanceWeight = 72;
 
 /// Triangles with a coordinate of larger magnitude are not stored in blocks.
 inline constexpr float kLargestInBlocks = 0x1p38F;
 
-/// A reference to a primitive during the build. The fourth lanes of the box hold id and weight.
+/// A reference to a primitive during the build. The fourth lanes of the box hold id and weight. The
+/// id of an instance is its index.
 struct Reference {
   Box box;
 
@@ -46,9 +49,10 @@ struct References {
   return (differs[0] | differs[1] | differs[2]) == 0;
 }
 
-/// Divides a scene's primitives into bounded and unbounded ones, and omits empty ones. Throws Error
-/// (limit) if there are more primitives than a tree can address.
-[[nodiscard]] References gather(const Primitives& primitives);
+/// Divides the primitives of a scene's objects into bounded and unbounded ones, and omits empty
+/// ones. is_instance[i] is true for objects to be left out. Throws Error (limit) if there are more
+/// primitives than a tree can address.
+[[nodiscard]] References gather(const Primitives& primitives, const std::vector<bool>& is_instance);
 
 /// Gives triangles with three equal vertices the weight of non-triangle primitives. A float32 test
 /// can never exclude a hit with such a triangle, so each needs its own box.

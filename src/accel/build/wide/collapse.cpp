@@ -23,6 +23,7 @@ Distribution best_distribution(const CollapsePlan& left, const CollapsePlan& rig
 }
 
 float leaf_cost(const BinaryNode& node, float area) {
+  if (is_instance(node)) return area * kInstanceCost;
   const std::uint32_t entries = blocks(node.weight);
   const bool of_one_kind = node.weight == node.count * kTriangleWeight ||
                            node.weight == node.count * std::uint64_t{kOtherWeight};

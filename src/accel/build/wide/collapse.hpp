@@ -11,6 +11,9 @@ namespace microtrace::build {
 /// The costs of testing a node's children and of testing a block of triangles.
 inline constexpr float kNodeCost = 0.6F;
 inline constexpr float kBlockCost = 1;
+/// The cost of entering an instance. All trees contain the same instances, so only the cost of
+/// nodes above them matters.
+inline constexpr float kInstanceCost = 8;
 
 /// Computes the plan of a node whose children already have plans.
 void plan_collapse(BinaryNode& node, const AreaMeasure& area);

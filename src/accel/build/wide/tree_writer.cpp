@@ -33,6 +33,7 @@ bool is_of_triangles(const BinaryNode& leaf) {
 }
 
 Places leaf_size(const BinaryNode& leaf) {
+  if (is_instance(leaf)) return {};
   if (is_of_triangles(leaf)) return {.blocks = blocks(leaf.weight)};
   return {.others = leaf.count};
 }
@@ -148,6 +149,7 @@ class Writer {
 
   ChildRef write_leaf(const BinaryNode& leaf, Places& next) {
     const std::span<const PrimitiveId> ids(ids_ + leaf.begin, leaf.count);
+    if (is_instance(leaf)) return child_ref::kFirstInstance + ids[0];
     if (!is_of_triangles(leaf)) {
       std::copy(ids.begin(), ids.end(),
                 tree_.others.begin() + static_cast<std::ptrdiff_t>(next.others));

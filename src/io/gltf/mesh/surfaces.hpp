@@ -4,6 +4,7 @@
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/model.hpp"
+#include "scene/translation_to_origin.hpp"
 
 #include <microtrace/io.hpp>
 #include <microtrace/material.hpp>
@@ -26,6 +27,7 @@ struct Surface {
   std::vector<std::uint32_t> vertices{};
   std::uint32_t material = 0;  ///< index among the results of make_materials and add_unlit_copies
   std::size_t number = 0;      ///< index of the primitive in its mesh
+  PointBounds box{};           ///< of the vertices
 };
 
 /// Makes the surfaces of each mesh. Points and lines without normals need unlit materials: their

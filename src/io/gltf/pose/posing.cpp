@@ -23,6 +23,11 @@ const std::vector<double>& Poser::weights(std::size_t index) const {
   return model_.meshes[*node.mesh].weights;
 }
 
+bool Poser::is_rigid(std::size_t index, const Surface& surface) const {
+  const Model::Node& node = model_.nodes[index];
+  return !node.skin && model_.meshes[*node.mesh].primitives[surface.number].targets.empty();
+}
+
 Mesh Poser::posed(std::size_t index, const Surface& surface, const DMat4& world_from_mesh) {
   const Model::Node& node = model_.nodes[index];
   const Morphed morphed = morpher_.morphed(*node.mesh, surface, weights(index));

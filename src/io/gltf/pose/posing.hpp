@@ -29,6 +29,9 @@ class Poser {
     return model_.nodes[node].skin.has_value();
   }
 
+  /// Returns true if no skin and no morph target moves the surface's vertices.
+  [[nodiscard]] bool is_rigid(std::size_t node, const Surface& surface) const;
+
   /// Returns a surface of the node's mesh in world space. Morphs it, and transforms it by the
   /// skin's joints or, without a skin, by `world_from_mesh`. Throws Error: invalid_scene, limit.
   [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);

@@ -9,36 +9,86 @@
 namespace microtrace::io::gltf {
 namespace {
 
+/// True if all vertices of a shared surface are finite in the world.
+bool is_finite(const Surface& surface, const Placement& placement) {
+  // Rounded sums are monotonic, so vertices are between the images of the box's corners.
+  return std::ranges::all_of(corners_of(surface.box), [&](const DVec3& corner) {
+    return microtrace::is_finite(Vec3(placement.point(corner)));
+  });
+}
+
 bool is_finite(const Mesh& mesh) {
   return std::ranges::all_of(mesh.positions,
                              [](const Vec3& p) { return microtrace::is_finite(p); });
 }
+
+/// In automatic mode, meshes are shared if copies would have more triangles than this. With fewer,
+/// copies need less than about 150 MB, and rays through copies take less time.
+constexpr std::size_t kMostCopied = std::size_t{1} << 20;
 
 /// The size of an object and its name, including the name's copy in UniqueNames.
 constexpr std::size_t kBytesOfObject = sizeof(Object) + 512;
 
 }  // namespace
 
-void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
-  std::size_t objects = 0, triangles = 0, vertices = 0;
-  std::uint64_t bytes = 0;
+template <class F>
+void ObjectMaker::for_each_drawn(const std::vector<PlacedNode>& nodes, const F& f) const {
   for (const PlacedNode& placed : nodes) {
-    const std::optional<std::size_t> mesh = model_.nodes[placed.node].mesh;
-    if (!mesh || !placed.visible) continue;
+    if (!model_.nodes[placed.node].mesh || !placed.visible) continue;
     const std::vector<DMat4>* instances = instances_.of(placed.node);
-    const std::size_t times = instances != nullptr ? instances->size() : 1;
-    objects += times * surfaces_[*mesh].size();
-    for (const Surface& surface : surfaces_[*mesh]) {
+    f(placed, instances != nullptr ? instances->size() : 1);
+  }
+}
+
+void ObjectMaker::choose_shared(const std::vector<PlacedNode>& nodes) {
+  if (sharing_.instancing == Instancing::copied) return;
+  for_each_drawn(nodes, [&](const PlacedNode& placed, std::size_t times) {
+    uses_[*model_.nodes[placed.node].mesh] += times * sharing_.copies;
+  });
+  if (sharing_.instancing == Instancing::shared) return;
+  std::size_t copied = 0;
+  for_each_drawn(nodes, [&](const PlacedNode& placed, std::size_t times) {
+    for (const Surface& surface : surfaces_[*model_.nodes[placed.node].mesh])
+      if (is_shared(placed.node, surface))
+        copied += times * sharing_.copies * surface.mesh.triangles.size();
+  });
+  if (copied <= kMostCopied) std::ranges::fill(uses_, 0);
+}
+
+bool ObjectMaker::is_shared(std::size_t node, const Surface& surface) const {
+  return uses_[*model_.nodes[node].mesh] > 1 && surface.mesh.segments.empty() &&
+         poser_.is_rigid(node, surface);
+}
+
+void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
+  choose_shared(nodes);
+  std::size_t objects = 0, triangles = 0, vertices = 0;
+  std::uint64_t primitives = 0;  // including those of instances
+  std::uint64_t bytes = 0;
+  for_each_drawn(nodes, [&](const PlacedNode& placed, std::size_t times) {
+    const std::size_t mesh = *model_.nodes[placed.node].mesh;
+    objects += times * surfaces_[mesh].size();
+    for (const Surface& surface : surfaces_[mesh]) {
+      bytes += times * kBytesOfObject;
+      primitives += times * sharing_.copies * surface.mesh.triangles.size();
+      if (is_shared(placed.node, surface)) continue;
       const std::size_t segments = surface.mesh.segments.size();  // drawn as quadrilaterals
       triangles += times * (surface.mesh.triangles.size() + 2 * segments);
       vertices += times * (surface.mesh.positions.size() + 4 * segments);
-      bytes += times * (kBytesOfObject + memory_of(surface.mesh));
+      bytes += times * memory_of(surface.mesh);
     }
-    if (std::max(triangles, vertices) <= kMaxElements) continue;
-    asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
-                "brings the scene to more than 2^27 triangles or vertices, the limit",
-                ErrorKind::limit);
-  }
+    const Element mesh_of_node = asset_.element("nodes", placed.node).member("mesh");
+    if (std::max(triangles, vertices) > kMaxElements)
+      asset_.fail(mesh_of_node,
+                  "brings the scene to more than 2^27 triangles or vertices, the limit",
+                  ErrorKind::limit);
+    if (primitives >= kNoPrimitive)
+      asset_.fail(
+          mesh_of_node,
+          "brings the scene to more than 2^32 - 2 triangles including those of instances, the "
+          "limit",
+          ErrorKind::limit);
+  });
   take_memory(bytes, "the meshes of the scene with all instances");
   objects_.reserve(objects);
   names_.reserve(objects);
@@ -63,9 +113,20 @@ void ObjectMaker::add_mesh(const PlacedNode& placed) {
 void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
                            const std::string& path) {
   const std::size_t index = *model_.nodes[node].mesh;
+  std::shared_ptr<const Placement> placement;
   for (const Surface& surface : surfaces_[index]) {
-    Mesh world = posed(node, surface, world_from_mesh);
-    if (!is_finite(world)) {
+    Mesh world;
+    bool has_all = true;
+    if (is_shared(node, surface)) {
+      if (!placement) placement = std::make_shared<const Placement>(world_from_mesh);
+      world = surface.mesh;
+      world.placement = placement;
+      has_all = is_finite(surface, *placement);
+    } else {
+      world = posed(node, surface, world_from_mesh);
+      has_all = is_finite(world);
+    }
+    if (!has_all) {
       asset_.warn(primitive(index, surface),
                   "has vertices that are not finite in the world; triangles with them are not "
                   "drawn");

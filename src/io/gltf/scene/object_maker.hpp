@@ -8,6 +8,7 @@
 #include "io/gltf/pose/nodes.hpp"
 #include "io/gltf/pose/posing.hpp"
 
+#include <microtrace/io.hpp>
 #include <microtrace/scene.hpp>
 
 #include <string>
@@ -18,19 +19,26 @@ namespace microtrace::io::gltf {
 
 class ObjectMaker {
  public:
+  struct Sharing {
+    Instancing instancing;
+    std::size_t copies;  ///< number of times that the nodes are drawn
+  };
+
   /// The arguments must outlive this object.
   ObjectMaker(Asset& asset, const Model& model, const NodeTree& tree,
               const std::vector<std::vector<Surface>>& surfaces, const Instances& instances,
-              Poser& poser)
+              Poser& poser, const Sharing& sharing)
       : asset_(asset),
         model_(model),
         tree_(tree),
         surfaces_(surfaces),
         instances_(instances),
-        poser_(poser) {}
+        poser_(poser),
+        sharing_(sharing),
+        uses_(surfaces.size()) {}
 
-  /// Counts the memory of all objects before any is allocated. Throws Error (limit) if there are
-  /// too many instances.
+  /// Chooses the meshes that objects share, and counts the memory of all objects before any is
+  /// allocated. Throws Error (limit) if there are too many instances.
   void make_room(const std::vector<PlacedNode>& nodes);
 
   /// Adds an object for each surface of the node's mesh, if the node has a mesh and is visible.
@@ -39,6 +47,13 @@ class ObjectMaker {
   [[nodiscard]] std::vector<Object> take() { return std::move(objects_); }
 
  private:
+  /// Calls f(placed node, number of its instances) for each node whose mesh is drawn.
+  template <class F>
+  void for_each_drawn(const std::vector<PlacedNode>& nodes, const F& f) const;
+  void choose_shared(const std::vector<PlacedNode>& nodes);
+  /// True if the objects of a surface share its arrays.
+  [[nodiscard]] bool is_shared(std::size_t node, const Surface& surface) const;
+
   void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::string& path);
   [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);
   [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const;
@@ -51,6 +66,8 @@ class ObjectMaker {
   const std::vector<std::vector<Surface>>& surfaces_;
   const Instances& instances_;
   Poser& poser_;
+  Sharing sharing_;
+  std::vector<std::size_t> uses_;  // number of times that each mesh is drawn
   std::vector<Object> objects_;
   UniqueNames names_;
 };

@@ -4,13 +4,7 @@ namespace microtrace::io::gltf {
 namespace {
 
 void add_corners(const PointBounds& box, const DMat4& world_from_box, PointBounds& to) {
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    DVec3 p = box.low;
-    for (int k = 0; k < 3; ++k) {
-      if ((corner >> unsigned(k) & 1U) != 0) p[k] = box.high[k];
-    }
-    to.add(DVec3(world_from_box * DVec4(p, 1)));
-  }
+  for (const DVec3& p : corners_of(box)) to.add(DVec3(world_from_box * DVec4(p, 1)));
 }
 
 }  // namespace
@@ -21,7 +15,8 @@ PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
   std::vector<PointBounds> boxes(surfaces.size());  // by mesh
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     for (const Surface& surface : surfaces[i]) {
-      for (const Vec3& p : surface.mesh.positions) boxes[i].add(DVec3(p));
+      boxes[i].add(surface.box.low);
+      boxes[i].add(surface.box.high);
     }
   }
   PointBounds result;

@@ -63,6 +63,7 @@ struct GltfFile::Content {
   Content(std::string_view bytes, std::string file_name, const std::filesystem::path& folder,
           const LoadOptions& options)
       : detail(options.detail == SurfaceDetail::usual ? SurfaceDetail::all : options.detail),
+        instancing(options.instancing),
         times(options.times),
         clock(times),
         name(std::move(file_name)),
@@ -128,13 +129,14 @@ struct GltfFile::Content {
     return time ? pose_at(*time) : gltf::PosedAsset{};
   }
 
-  LoadedScene scene(const gltf::PosedAsset& pose, const DMat4& world_from_asset) {
+  LoadedScene scene(const gltf::PosedAsset& pose, const DMat4& world_from_asset,
+                    std::size_t copies) {
     LoadClock lap(times);
     Asset own = asset;  // a copy, because each pose adds its own warnings
     const gltf::Element root{pose.properties ? &*pose.properties : own.root().value, {}};
     const std::vector<PlacedNode> nodes = tree.place(own, world_from_asset, pose.nodes);
     gltf::Poser poser(own, model, reader, tree, pose.nodes, world_from_asset);
-    gltf::ObjectMaker maker(own, model, tree, surfaces, instances, poser);
+    gltf::ObjectMaker maker(own, model, tree, surfaces, instances, poser, {instancing, copies});
     maker.make_room(nodes);
     for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
     LoadedScene result;
@@ -183,6 +185,7 @@ struct GltfFile::Content {
 
   MemoryAccount& memory = memory_account();  // memory of the file, which all poses share
   SurfaceDetail detail;
+  Instancing instancing;
   LoadTimes* times;
   LoadClock clock;
   std::string name;
@@ -224,15 +227,16 @@ LoadedScene GltfFile::at(std::optional<double> time) {
     const std::vector<PlacedNode> nodes = content_->tree.place(unheard, DMat4(1), pose.nodes);
     const DVec3 way = translation_to_origin(
         gltf::bounds_of(content_->model, nodes, content_->surfaces, content_->instances));
-    LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way));
+    LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way), 1);
     result.scene.origin = -way;
     return result;
   });
 }
 
-LoadedScene GltfFile::placed(std::optional<double> time, const DMat4& world_from_asset) {
+LoadedScene GltfFile::placed(std::optional<double> time, const DMat4& world_from_asset,
+                             std::size_t copies) {
   return guarded(content_->name,
-                 [&] { return content_->scene(content_->pose(time), world_from_asset); });
+                 [&] { return content_->scene(content_->pose(time), world_from_asset, copies); });
 }
 
 LoadedScene load_gltf(std::string_view bytes, const std::string& name,

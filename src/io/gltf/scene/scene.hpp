@@ -5,6 +5,7 @@
 #include <microtrace/io.hpp>
 #include <microtrace/math.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -33,8 +34,10 @@ class GltfFile {
   [[nodiscard]] LoadedScene at(std::optional<double> time);
 
   /// Returns the scene as a part of another scene that has its own origin. The affine transform
-  /// `world_from_asset` is applied last.
-  [[nodiscard]] LoadedScene placed(std::optional<double> time, const DMat4& world_from_asset);
+  /// `world_from_asset` is applied last. `copies` is the number of such parts, which may share
+  /// meshes.
+  [[nodiscard]] LoadedScene placed(std::optional<double> time, const DMat4& world_from_asset,
+                                   std::size_t copies = 1);
 
  private:
   struct Content;

@@ -3,6 +3,7 @@
 /// around them.
 
 #include "accel/kernels/kernel.hpp"
+#include "accel/kernels/packet/packet_boxes.hpp"
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/slabs.hpp"
 
@@ -64,35 +65,12 @@ inline Beam beam_between(const float (&least)[3], const float (&greatest)[3]) {
   return beam;
 }
 
-/// Computes bounds of the slab factors of all rays, which decrease as |d| increases.
-inline void bound_factors(const float (&least)[3], const float (&greatest)[3],
-                          KernelPacket& packet) {
-  const float d[8] = {least[0], least[1], least[2], 0, greatest[0], greatest[1], greatest[2], 0};
-  float near[8], far[8];
-  for (int i = 0; i < 8; i += 4) {
-    Float<4> near_factors, far_factors;
-    slab_factors<4>(load<4>(d + i), near_factors, far_factors);
-    store<4>(near + i, near_factors);
-    store<4>(far + i, far_factors);
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    packet.negative[axis] = greatest[axis] < 0;
-    packet.common_sign[axis] = (greatest[axis] < 0 || least[axis] >= 0) &&
-                               __builtin_fabsf(far[axis]) <= __FLT_MAX__ &&
-                               __builtin_fabsf(far[axis + 4]) <= __FLT_MAX__;
-    packet.least_near[axis] = near[axis + 4];
-    packet.greatest_near[axis] = near[axis];
-    packet.least_far[axis] = far[axis + 4];
-    packet.greatest_far[axis] = far[axis];
-  }
-}
-
 template <int N>
 bool fill_packet(const float* rays, int count, KernelPacket& packet) {
   using F = Float<N>;
   packet.count = count;
   for (int axis = 0; axis < 3; ++axis) {
-    packet.o[axis] = rays[axis];
+    packet.o[axis] = packet.boxes.o_of_lo[axis] = packet.boxes.o_of_hi[axis] = rays[axis];
     if (!(__builtin_fabsf(rays[axis]) <= kFarthestCoordinate)) return false;
   }
   if (!read_rows(rays, packet)) return false;
@@ -117,8 +95,8 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
         const F d = load<N>(packet.d[axis] + i), length = magnitude(d);
         F near, far;
         slab_factors<N>(d, near, far);
-        store<N>(packet.near[axis] + i, near);
-        store<N>(packet.far[axis] + i, far);
+        store<N>(packet.boxes.near[axis] + i, near);
+        store<N>(packet.boxes.far[axis] + i, far);
         size = greater(length, size);
         suited &= less_equal<N>(length, longest);
         least[axis] = lesser(d, least[axis]);
@@ -150,7 +128,7 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
     packet.d_sum += greater(-tile_least[axis], tile_greatest[axis]);
   packet.d_sum *= 1 + 0x1p-21F;
   packet.least_t_begin = least_of<N>(least_t_begin);
-  bound_factors(tile_least, tile_greatest, packet);
+  bound_factors(tile_least, tile_greatest, packet.boxes);
   return true;
 }
 

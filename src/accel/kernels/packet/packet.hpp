@@ -6,7 +6,8 @@
 
 #include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/kernel.hpp"
-#include "accel/kernels/packet_view.hpp"
+#include "accel/kernels/packet/packet_boxes.hpp"
+#include "accel/kernels/packet/packet_view.hpp"
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/single_ray.hpp"
 
@@ -18,6 +19,7 @@ class PacketWalk {
  public:
   PacketWalk(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow)
       : tree_(tree), packet_(packet), slow_(slow) {
+    leave_instance();
     update_limit();
   }
 
@@ -29,7 +31,22 @@ class PacketWalk {
       const StackEntry entry = stack[--top];
       if (entry.near > limit_) continue;
       if ((entry.child & child_ref::kKind) == 0) {
-        top = push_children(tree_.nodes[entry.child], stack, top);
+        top = push_children(nodes_[entry.child], stack, top);
+      } else if (entry.child == kInstanceEnd) {
+        leave_instance();
+      } else if (is_instance(entry.child)) {
+        const Instance& instance = tree_.instances[entry.child - child_ref::kFirstInstance];
+        if (enter<N>(instance, packet_, inner_)) {
+          instance_ = &instance;
+          nodes_ = instance.mesh->nodes;
+          boxes_ = &inner_;
+          stack[top++] = {kInstanceEnd, -__builtin_inff()};
+          stack[top++] = {instance.mesh->root, entry.near};
+        } else {
+          for (std::uint32_t i = 0; i < instance.mesh->triangles; ++i)
+            slow_.consider_all(slow_.context, instance.first_id + i, packet_);
+          update_limit();
+        }
       } else {
         meet_leaf(entry.child);
         update_limit();
@@ -38,6 +55,12 @@ class PacketWalk {
   }
 
  private:
+  void leave_instance() {
+    instance_ = nullptr;
+    nodes_ = tree_.nodes;
+    boxes_ = &packet_.boxes;
+  }
+
   using F = Float<N>;
   static constexpr int kNodeLanes = N < kWidth ? N : kWidth;
   using B = Float<kNodeLanes>;
@@ -48,14 +71,17 @@ class PacketWalk {
     limit_ = greatest_of<N>(limit);
   }
 
-  // The planes of a node's children through which the packet's rays enter and leave along an axis.
+  // The planes of a node's children through which the packet's rays enter and leave along an axis,
+  // and the origins for them.
   struct Slab {
     const float *enter, *leave;
+    float o_of_enter, o_of_leave;
   };
   [[nodiscard]] Slab slab(const WideNode& node, int axis) const {
     const float* lo = axis == 0 ? node.lo_x : axis == 1 ? node.lo_y : node.lo_z;
     const float* hi = axis == 0 ? node.hi_x : axis == 1 ? node.hi_y : node.hi_z;
-    return packet_.negative[axis] ? Slab{hi, lo} : Slab{lo, hi};
+    const float o_of_lo = boxes_->o_of_lo[axis], o_of_hi = boxes_->o_of_hi[axis];
+    return boxes_->negative[axis] ? Slab{hi, lo, o_of_hi, o_of_lo} : Slab{lo, hi, o_of_lo, o_of_hi};
   }
 
   int push_children(const WideNode& node, StackEntry* stack, int top) const {
@@ -64,14 +90,14 @@ class PacketWalk {
     for (int i = 0; i < kWidth; i += kNodeLanes) {
       B enter = all<kNodeLanes>(packet_.least_t_begin), leave = all<kNodeLanes>(limit_);
       for (int axis = 0; axis < 3; ++axis) {
-        if (!packet_.common_sign[axis]) continue;
+        if (!boxes_->common_sign[axis]) continue;
         const Slab planes = slab(node, axis);
-        const B in = load<kNodeLanes>(planes.enter + i) - packet_.o[axis];
-        const B out = load<kNodeLanes>(planes.leave + i) - packet_.o[axis];
+        const B in = load<kNodeLanes>(planes.enter + i) - planes.o_of_enter;
+        const B out = load<kNodeLanes>(planes.leave + i) - planes.o_of_leave;
         enter =
-            greater(lesser(in * packet_.least_near[axis], in * packet_.greatest_near[axis]), enter);
+            greater(lesser(in * boxes_->least_near[axis], in * boxes_->greatest_near[axis]), enter);
         leave =
-            lesser(greater(out * packet_.least_far[axis], out * packet_.greatest_far[axis]), leave);
+            lesser(greater(out * boxes_->least_far[axis], out * boxes_->greatest_far[axis]), leave);
       }
       entered |= less_equal<kNodeLanes>(enter, leave) << i;
       store<kNodeLanes>(near + i, enter);
@@ -79,7 +105,7 @@ class PacketWalk {
     const int first = top;
     for (; entered != 0; entered &= entered - 1) {
       const int lane = first_lane(entered);
-      if (!some_ray_enters(node, lane)) continue;
+      if (!some_ray_enters<N>(packet_, *boxes_, node, lane)) continue;
       const StackEntry entry{node.child[lane], near[lane]};
       fetch(entry.child);
       int slot = top++;
@@ -93,44 +119,15 @@ class PacketWalk {
   // Always inlined, because GCC removes calls of a function that only prefetches.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
     const bool is_node = (child & child_ref::kKind) == 0;
-    // Addresses are computed as integers, because tree_.blocks is null if the tree has no
-    // triangles.
-    const auto p = is_node
-                       ? reinterpret_cast<std::uintptr_t>(tree_.nodes) + child * sizeof(WideNode)
-                       : reinterpret_cast<std::uintptr_t>(tree_.blocks) +
-                             first_entry(child) * sizeof(TriangleBlock);
+    // Addresses are computed as integers, because the array is null if there are no triangles.
+    const auto p = is_node ? reinterpret_cast<std::uintptr_t>(nodes_) + child * sizeof(WideNode)
+                           : reinterpret_cast<std::uintptr_t>(blocks()) +
+                                 first_entry(child) * sizeof(TriangleBlock);
     const std::uintptr_t lines = is_node ? 4 : 5;
     for (std::uintptr_t i = 0; i < lines; ++i) {
       // NOLINTNEXTLINE(performance-no-int-to-ptr): only prefetched
       __builtin_prefetch(reinterpret_cast<const void*>(p + 64 * i));
     }
-  }
-
-  [[nodiscard]] bool some_ray_enters(const WideNode& node, int lane) const {
-    const float lo[3] = {node.lo_x[lane] - packet_.o[0], node.lo_y[lane] - packet_.o[1],
-                         node.lo_z[lane] - packet_.o[2]};
-    const float hi[3] = {node.hi_x[lane] - packet_.o[0], node.hi_y[lane] - packet_.o[1],
-                         node.hi_z[lane] - packet_.o[2]};
-    for (int i = 0; i < kPacketRays; i += N) {
-      F enter = load<N>(packet_.t_begin + i), leave = load<N>(packet_.best_hi + i);
-      for (int axis = 0; axis < 3; ++axis) {
-        const F near_factor = load<N>(packet_.near[axis] + i),
-                far_factor = load<N>(packet_.far[axis] + i);
-        if (packet_.common_sign[axis]) {
-          const bool negative = packet_.negative[axis];
-          enter = greater(near_factor * (negative ? hi[axis] : lo[axis]), enter);
-          leave = lesser(far_factor * (negative ? lo[axis] : hi[axis]), leave);
-        } else {
-          // The sign of each ray's factor decides which plane the ray meets first.
-          const F zero{};
-          const F l = all<N>(lo[axis]), h = all<N>(hi[axis]);
-          enter = greater(near_factor * (near_factor < zero ? h : l), enter);
-          leave = lesser(far_factor * (far_factor < zero ? l : h), leave);
-        }
-      }
-      if (less_equal<N>(enter, leave) != 0) return true;
-    }
-    return false;
   }
 
   void meet_leaf(ChildRef leaf) {
@@ -141,14 +138,27 @@ class PacketWalk {
       });
     } else {
       for_each_entry(leaf, [&](std::uint32_t i) {
-        slow_.consider_all(slow_.context, tree_.others[i], packet_);
+        const std::uint32_t id = instance_ == nullptr
+                                     ? tree_.others[i]
+                                     : instance_->first_id + instance_->mesh->others[i];
+        slow_.consider_all(slow_.context, id, packet_);
         return false;
       });
     }
   }
 
+  [[nodiscard]] const TriangleBlock* blocks() const {
+    return instance_ == nullptr ? tree_.blocks : instance_->mesh->blocks;
+  }
+
   void meet_block(std::uint32_t index) {
-    const TriangleBlock& block = tree_.blocks[index];
+    if (instance_ == nullptr) return meet_block(tree_.blocks[index], index);
+    TriangleBlock placed;
+    tree_.scene_block(*instance_, instance_->mesh->blocks[index], placed);
+    meet_block(placed, kNoBlock);
+  }
+
+  void meet_block(const TriangleBlock& block, std::uint32_t index) {
     const PacketView<kNodeLanes> view(block, packet_);
     for (int group = 0; group < kGroups; ++group) {
       if (view.seen[group] == 0) continue;
@@ -183,9 +193,14 @@ class PacketWalk {
                    .size = size,
                    .height_error = view.height_error[k],
                    .size_error = view.size_error[k]},
-                  maybe, certain, i, {block, k, index * kWidth + static_cast<std::uint32_t>(k)});
+                  maybe, certain, i, {block, k, slot(index, k)});
       }
     }
+  }
+
+  static constexpr std::uint32_t kNoBlock = ~0U;
+  static std::uint32_t slot(std::uint32_t block, int lane) {
+    return block == kNoBlock ? kNoSlot : block * kWidth + static_cast<std::uint32_t>(lane);
   }
 
   struct Quotient {
@@ -255,6 +270,12 @@ class PacketWalk {
   const TreeView& tree_;
   KernelPacket& packet_;
   const PacketFallback& slow_;
+  // The tree that the rays traverse, and their form for its boxes. instance_ is null in the scene's
+  // own tree.
+  const Instance* instance_;
+  const WideNode* nodes_;
+  const PacketBoxRays* boxes_;
+  PacketBoxRays inner_;
   float limit_ = 0;  // a hit beyond this t can't be the nearest hit of any ray
 };
 

@@ -1,0 +1,143 @@
+#include "accel/build/instances/mesh_tree.hpp"
+
+#include "accel/build/instances/scene_box.hpp"
+#include "accel/build/wide/wide_tree.hpp"
+
+#include <microtrace/primitives.hpp>
+#include <microtrace/scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+constexpr double kUnit = 0x1p-24;  // unit roundoff of float32
+constexpr double kGreatestScale = 0x1p16;
+constexpr double kGreatestCoordinate = 0x1p38;
+
+/// Returns a mesh with the same triangles as a scene of its own.
+Scene scene_of(const Mesh& mesh) {
+  Scene scene;
+  Mesh shared;
+  // The scene exists only as long as the caller's mesh.
+  shared.positions = Array<Vec3>::borrow({mesh.positions.data(), mesh.positions.size()});
+  shared.triangles =
+      decltype(mesh.triangles)::borrow({mesh.triangles.data(), mesh.triangles.size()});
+  scene.objects.push_back({.name = {}, .shape = std::move(shared)});
+  return scene;
+}
+
+Tree tree_of(const Mesh& mesh, const BuildOptions& options) {
+  const Scene scene = scene_of(mesh);
+  return build_tree(Primitives(scene),
+                    {.fast = options.fast, .threads = options.threads, .keeps_duplicates = true});
+}
+
+/// Rows of the inverse of a matrix with these columns.
+struct Inverse {
+  DVec3 rows[3];
+  DVec3 row_max;  ///< the greatest |component| of each row
+};
+
+/// Returns the inverse if its elements have errors below 2^-28 times the greatest of their rows.
+std::optional<Inverse> inverse_of(const Placement& placement) {
+  const DVec3 a = placement.column(0), b = placement.column(1), c = placement.column(2);
+  Inverse inverse{.rows = {glm::cross(b, c), glm::cross(c, a), glm::cross(a, b)}, .row_max = {}};
+  const double determinant = glm::dot(a, inverse.rows[0]);
+  for (int i = 0; i < 3; ++i) {
+    inverse.rows[i] /= determinant;
+    const DVec3 size = glm::abs(inverse.rows[i]);
+    inverse.row_max[i] = std::max({size.x, size.y, size.z});
+    const bool is_moderate =
+        inverse.row_max[i] <= kGreatestScale && inverse.row_max[i] >= 1 / kGreatestScale;
+    if (!is_moderate) return std::nullopt;
+  }
+  // With the residual R = I - B A, the exact inverse is the sum of R^k B. If |R| r <= theta r for
+  // the row maxima r, its elements differ from B by at most theta / (1 - theta) r.
+  double theta = 0;
+  for (int i = 0; i < 3; ++i) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const DVec3& column = placement.column(k);
+      const double residual = (i == k ? 1 : 0) - glm::dot(inverse.rows[i], column);
+      const double error = 0x1p-50 * (1 + glm::dot(glm::abs(inverse.rows[i]), glm::abs(column)));
+      sum += (std::abs(residual) + error) * inverse.row_max[k];
+    }
+    theta = std::max(theta, sum / inverse.row_max[i]);
+  }
+  return theta <= 0x1p-29 ? std::optional(inverse) : std::nullopt;
+}
+
+float rounded_up(double x) {
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+double greatest(const Vec3& lo, const Vec3& hi, int axis, double from = 0) {
+  return std::max(std::abs(double{lo[axis]} - from), std::abs(double{hi[axis]} - from));
+}
+
+}  // namespace
+
+OwnedMeshTree::OwnedMeshTree(const Mesh& mesh, const BuildOptions& options)
+    : tree(tree_of(mesh, options)),
+      view{.nodes = tree.nodes.data(),
+           .blocks = tree.blocks.data(),
+           .others = tree.others.data(),
+           .root = tree.root,
+           .triangles = static_cast<std::uint32_t>(mesh.triangles.size())},
+      bounds(tree.bounds) {
+  if (!mesh.positions.is_borrowed() || !mesh.triangles.is_borrowed()) return;
+  positions = mesh.positions;
+  triangles = mesh.triangles;
+}
+
+bool OwnedMeshTree::is_of(const Mesh& mesh) const {
+  return !positions.empty() && positions.data() == mesh.positions.data() &&
+         positions.size() == mesh.positions.size() && triangles.data() == mesh.triangles.data() &&
+         triangles.size() == mesh.triangles.size();
+}
+
+std::optional<build::PlacedInstance> build::make_instance(const OwnedMeshTree& tree,
+                                                          const Mesh& mesh, PrimitiveId first_id) {
+  const Placement& placement = *mesh.placement;
+  const std::optional<Inverse> inverse = inverse_of(placement);
+  if (!inverse) return std::nullopt;
+  PlacedInstance result{};
+  Instance& instance = result.instance;
+  instance.mesh = &tree.view;
+  instance.scene_from_mesh = &placement.column(0).x;
+  instance.first_id = first_id;
+  instance.is_mirrored = placement.is_mirrored() ? 1 : 0;
+  result.box = scene_box(instance, tree.tree, mesh);
+  const Bounds in_scene = bounds_of(result.box);
+  double reach = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double t = placement.column(3)[axis];
+    double size = std::abs(t);
+    for (int k = 0; k < 3; ++k) {
+      if (!(greatest(tree.bounds.lo, tree.bounds.hi, k) <= kGreatestCoordinate))
+        return std::nullopt;
+      size += std::abs(placement.column(k)[axis]) * greatest(tree.bounds.lo, tree.bounds.hi, k);
+    }
+    const double coordinate = greatest(in_scene.lo, in_scene.hi, axis);
+    if (!(coordinate <= kGreatestCoordinate && std::abs(t) <= kGreatestCoordinate))
+      return std::nullopt;
+    // The rounding of vertices, and the part of rho.
+    const double rounding = 1.01 * kUnit * coordinate + 0x1p-49 * size + 0x1p-140;
+    reach += 1.2 * rounding + 5 * kUnit * greatest(in_scene.lo, in_scene.hi, axis, t);
+  }
+  instance.reach = rounded_up(reach * (1 + 0x1p-20));
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k)
+      instance.mesh_from_scene[i][k] = static_cast<float>(inverse->rows[i][k]);
+    instance.row_max[i] = rounded_up(inverse->row_max[i] * (1 + 0x1p-20));
+  }
+  return result;
+}
+
+}  // namespace microtrace

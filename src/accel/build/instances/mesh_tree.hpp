@@ -1,0 +1,47 @@
+#pragma once
+/// The trees of meshes that objects share, and the instances that place them.
+
+#include "accel/build/float4.hpp"
+#include "accel/build/tree.hpp"
+
+#include <microtrace/array.hpp>
+#include <microtrace/shape.hpp>
+
+#include <cstddef>
+#include <optional>
+
+namespace microtrace {
+
+/// A tree of a mesh's triangles in the mesh's own space.
+struct OwnedMeshTree {
+  Tree tree;
+  MeshTree view{};  ///< refers to `tree`
+  Bounds bounds;    ///< of the triangles
+  /// The arrays of the mesh, if they are shared, so that their addresses identify the mesh as long
+  /// as this object exists.
+  Array<Vec3> positions;
+  Array<std::array<std::uint32_t, 3>> triangles;
+
+  OwnedMeshTree(const Mesh& mesh, const BuildOptions& options);
+  OwnedMeshTree(const OwnedMeshTree&) = delete;
+  OwnedMeshTree& operator=(const OwnedMeshTree&) = delete;
+
+  /// True if the mesh has the same arrays as the one of this tree.
+  [[nodiscard]] bool is_of(const Mesh& mesh) const;
+};
+
+namespace build {
+
+struct PlacedInstance {
+  Instance instance;
+  Box box;  ///< contains the transformed triangles
+};
+
+/// Returns the instance of a placed mesh. Nothing if the placement is singular or nearly so, if it
+/// scales by more than 2^16 or less than 2^-16, or if the result exceeds the range of blocks. The
+/// instance refers to `tree` and to the mesh's placement.
+[[nodiscard]] std::optional<PlacedInstance> make_instance(const OwnedMeshTree& tree,
+                                                          const Mesh& mesh, PrimitiveId first_id);
+
+}  // namespace build
+}  // namespace microtrace

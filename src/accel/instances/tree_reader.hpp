@@ -1,0 +1,64 @@
+#pragma once
+/// Reads a tree in scene coordinates, for traversals that are not worth a kernel of their own.
+
+#include "accel/build/tree.hpp"
+#include "accel/instances/dispatch.hpp"
+#include "accel/layout.hpp"
+
+#include <microtrace/hit.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace microtrace {
+
+/// Gives access to the nodes and leaves of a tree and, after enter(), to those of an instance,
+/// whose nodes and blocks it transforms to the scene. Results are valid until the next call.
+class TreeReader {
+ public:
+  explicit TreeReader(const Tree& tree) : tree_(tree) {}
+
+  /// If the reference is an instance, enters it, replaces the reference by the root of its mesh's
+  /// tree and returns true. The traversal must visit kInstanceEnd after the subtrees of the mesh.
+  [[nodiscard]] bool enter(ChildRef& next) {
+    if (next < child_ref::kFirstInstance || next > child_ref::kLastInstance) return false;
+    if (kernels_ == nullptr) kernels_ = &kInstanceKernels.best();
+    instance_ = &tree_.instances[next - child_ref::kFirstInstance];
+    next = instance_->mesh->root;
+    return true;
+  }
+  /// If the reference is kInstanceEnd, leaves the instance and returns true.
+  [[nodiscard]] bool leave(ChildRef next) {
+    if (next != child_ref::kInstanceEnd) return false;
+    instance_ = nullptr;
+    return true;
+  }
+
+  [[nodiscard]] const WideNode& node(ChildRef node) {
+    if (instance_ == nullptr) return tree_.nodes[node];
+    kernels_->scene_node(*instance_, instance_->mesh->nodes[node], node_);
+    return node_;
+  }
+  [[nodiscard]] const TriangleBlock& block(std::uint32_t block) {
+    if (instance_ == nullptr) return tree_.blocks[block];
+    kernels_->scene_block(*instance_, instance_->mesh->blocks[block], block_);
+    return block_;
+  }
+  [[nodiscard]] PrimitiveId other(std::uint32_t other) const {
+    if (instance_ == nullptr) return tree_.others[other];
+    return instance_->first_id + instance_->mesh->others[other];
+  }
+
+ private:
+  const Tree& tree_;
+  const InstanceKernels* kernels_ = nullptr;  // found when an instance is entered
+  const Instance* instance_ = nullptr;        // null in the scene's own tree
+  WideNode node_;
+  TriangleBlock block_;
+};
+
+/// The number of references on the stack of a depth-first traversal.
+inline constexpr std::size_t kTraversalStack =
+    2 * (std::size_t{kMaxDepth} * (kWidth - 1) + kWidth) + 1;
+
+}  // namespace microtrace

@@ -1,0 +1,137 @@
+#pragma once
+/// Tests of nodes and triangles against small boxes.
+
+#include "accel/kernels/block_test.hpp"
+#include "accel/kernels/kernel.hpp"
+#include "accel/kernels/simd.hpp"
+
+namespace microtrace {
+namespace {
+
+/// Returns the lanes in which [lo, hi] overlaps the box along an axis.
+template <int N>
+inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const BoxQuery& box, int axis) {
+  return less_equal<N>(lo, all<N>(box.hi[axis])) & less_equal<N>(all<N>(box.lo[axis]), hi);
+}
+
+template <int N>
+inline Lanes touched_children(const WideNode& node, const BoxQuery& box) {
+  Lanes lanes = 0;
+  for (int i = 0; i < kWidth; i += N) {
+    lanes |= (overlapping<N>(load<N>(node.lo_x + i), load<N>(node.hi_x + i), box, 0) &
+              overlapping<N>(load<N>(node.lo_y + i), load<N>(node.hi_y + i), box, 1) &
+              overlapping<N>(load<N>(node.lo_z + i), load<N>(node.hi_z + i), box, 2))
+             << i;
+  }
+  return lanes;
+}
+
+/// Returns the triangles whose bounding boxes overlap the box. Unused slots are NaN and overlap
+/// nothing.
+template <int N>
+inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) {
+  Lanes lanes = 0;
+  for (int i = 0; i < kWidth; i += N) {
+    Lanes touched = kAllLanes<N>;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Float<N> a = load<N>(block.a[axis] + i), b = load<N>(block.b[axis] + i),
+                     c = load<N>(block.c[axis] + i);
+      touched &= overlapping<N>(lesser(lesser(b, c), a), greater(greater(b, c), a), box, axis);
+    }
+    lanes |= touched << i;
+  }
+  return lanes;
+}
+
+/// Returns the triangles that the query omits.
+template <int N>
+inline Lanes omitted_triangles(const TriangleBlock& block, const BoxQuery& query) {
+  Lanes lanes = lanes_within(block.id, query.omitted_id, query.omitted_id);
+  if (query.plane_axis < 0) return lanes;
+  const float(*vertices[])[kWidth] = {block.a, block.b, block.c};
+  const Float<N> plane = all<N>(query.plane_at);
+  for (int i = 0; i < kWidth; i += N) {
+    Lanes within = kAllLanes<N>;
+    for (const auto* vertex : vertices) {
+      const Float<N> x = load<N>(vertex[query.plane_axis] + i);
+      within &= less_equal<N>(x, plane) & less_equal<N>(plane, x);
+    }
+    lanes |= within << i;
+  }
+  return lanes;
+}
+
+/// Boxes as their centers and half extents, which are rounded up.
+template <class F>
+struct CenteredBox {
+  F center[3], reach[3];
+
+  CenteredBox(const F (&lo)[3], const F (&hi)[3]) {
+    for (int k = 0; k < 3; ++k) {
+      center[k] = 0.5F * lo[k] + 0.5F * hi[k];
+      reach[k] = greater(hi[k] - center[k], center[k] - lo[k]) * (1 + 0x1p-20F);
+    }
+  }
+};
+
+/// Tests N triangles against one box, or one triangle against N boxes. Returns those of `lanes`
+/// whose triangle may touch the box. The others certainly don't, because, seen along some axis, the
+/// box is left of one edge and right of another. Long thin triangles often don't touch the box
+/// although their bounding boxes overlap it. Let A and B be the vectors from the center to an
+/// edge's ends, and r the half extents. The area A_i B_j - A_j B_i changes by at most r_i |B_j -
+/// A_j| + r_j |B_i - A_i| within the box. Each of its terms has three roundings; the rounding of
+/// the difference does not change its sign. Half of the eight units, and half of the margin of the
+/// half extents for second-order roundings, would suffice.
+template <int N, class Corner, class BoxPart>
+inline Lanes without_clear(Lanes lanes, const Corner (&vertices)[3][3],
+                           const CenteredBox<BoxPart>& box) {
+  using F = Float<N>;
+  F corners[3][3];
+  for (int corner = 0; corner < 3; ++corner) {
+    for (int axis = 0; axis < 3; ++axis)
+      corners[corner][axis] = vertices[corner][axis] - box.center[axis];
+  }
+  for (int axis = 0; axis < 3 && lanes != 0; ++axis) {
+    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    Lanes any_positive = 0, any_negative = 0;
+    for (int corner = 0; corner < 3; ++corner) {
+      const F(&a)[3] = corners[corner];
+      const F(&b)[3] = corners[(corner + 1) % 3];
+      const F left = a[j] * b[k], right = a[k] * b[j], area = left - right;
+      const F error = (magnitude(left) + magnitude(right)) * (8 * kUnit) +
+                      (magnitude(a[k]) + magnitude(b[k])) * (box.reach[j] * (1 + 0x1p-20F)) +
+                      (magnitude(a[j]) + magnitude(b[j])) * (box.reach[k] * (1 + 0x1p-20F)) + kTiny;
+      any_positive |= less<N>(error, area);
+      any_negative |= less<N>(area, -error);
+    }
+    lanes &= ~(any_positive & any_negative);
+  }
+  return lanes;
+}
+
+/// The vertices of N triangles of a block, starting at i.
+template <int N>
+struct BlockVertices {
+  Float<N> at[3][3];
+
+  BlockVertices(const TriangleBlock& block, int i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      at[0][axis] = load<N>(block.a[axis] + i);
+      at[1][axis] = load<N>(block.b[axis] + i);
+      at[2][axis] = load<N>(block.c[axis] + i);
+    }
+  }
+};
+
+/// Adds a slot to the results unless there are too many; returns whether there are.
+inline bool adds_too_many(BoxQuery& query, std::uint32_t slot, std::uint32_t id = kNoPrimitive) {
+  if (query.count == BoxQuery::kMost) query.count = -1;
+  if (query.count >= 0) {
+    query.ids[query.count] = id;
+    query.slots[query.count++] = slot;
+  }
+  return query.count < 0;
+}
+
+}  // namespace
+}  // namespace microtrace

@@ -1,0 +1,56 @@
+#pragma once
+/// Visits the vertices of many placements of a mesh without reading all of them each time.
+
+#include <microtrace/math.hpp>
+#include <microtrace/shape.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <unordered_map>
+#include <vector>
+
+namespace microtrace {
+
+/// The bounding boxes of consecutive vertices of a mesh, in the mesh's own space. Vertices that are
+/// not finite are in no box.
+class MeshChunks {
+ public:
+  explicit MeshChunks(const Mesh& mesh);
+
+  /// A box in scene coordinates; empty if lo > hi.
+  struct Box {
+    Vec3 lo, hi;
+  };
+
+  /// Calls point(p) for all vertices of a placed mesh, in scene coordinates, except for chunks for
+  /// whose box skips(box) is true. The box contains all finite vertices of the chunk.
+  template <class Skips, class Point>
+  void visit(const Mesh& mesh, const Skips& skips, const Point& point) const {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      const Box box = placed(boxes_[i], *mesh.placement);
+      if (!(box.lo.x <= box.hi.x) || skips(box)) continue;
+      const std::size_t end = std::min(mesh.positions.size(), (i + 1) * kSize);
+      for (std::size_t k = i * kSize; k < end; ++k) point(mesh.position(k));
+    }
+  }
+
+ private:
+  static constexpr std::size_t kSize = 64;  // number of vertices
+
+  static Box placed(const Box& box, const Placement& placement);
+
+  std::vector<Box> boxes_;
+};
+
+/// The chunks of the meshes of a scene, made on first use. The meshes must outlive this object.
+class ChunkedMeshes {
+ public:
+  [[nodiscard]] const MeshChunks& of(const Mesh& mesh) {
+    return chunks_.try_emplace(mesh.positions.data(), mesh).first->second;
+  }
+
+ private:
+  std::unordered_map<const Vec3*, MeshChunks> chunks_;  // by the address of the positions
+};
+
+}  // namespace microtrace

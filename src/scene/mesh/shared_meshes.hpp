@@ -1,0 +1,53 @@
+#pragma once
+/// Recognizes placed meshes that share all of their arrays, so that each is examined once.
+
+#include <microtrace/shape.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <unordered_map>
+
+namespace microtrace {
+
+/// Identifies the triangles of a mesh by the addresses of its arrays.
+struct MeshKey {
+  const void *positions, *triangles;
+
+  explicit MeshKey(const Mesh& mesh)
+      : positions(mesh.positions.data()), triangles(mesh.triangles.data()) {}
+  bool operator==(const MeshKey&) const = default;
+
+  struct Hash {
+    std::size_t operator()(const MeshKey& key) const {
+      const std::hash<const void*> hash;
+      return hash(key.positions) * 31 + hash(key.triangles);
+    }
+  };
+};
+
+class SharedMeshes {
+ public:
+  /// Returns false if the mesh is placed and has the arrays of a placed mesh that was added before.
+  bool add(const Mesh& mesh) {
+    if (!mesh.placement) return true;
+    const auto [known, is_new] = meshes_.emplace(MeshKey(mesh), &mesh);
+    return is_new || !has_same_arrays(*known->second, mesh);
+  }
+
+ private:
+  static bool has_same_arrays(const Mesh& a, const Mesh& b) {
+    const auto is_same = [](const auto& x, const auto& y) {
+      return x.data() == y.data() && x.size() == y.size();
+    };
+    if (a.uv_sets.size() != b.uv_sets.size()) return false;
+    for (std::size_t i = 0; i < a.uv_sets.size(); ++i)
+      if (!is_same(a.uv_sets[i], b.uv_sets[i])) return false;
+    return is_same(a.positions, b.positions) && is_same(a.triangles, b.triangles) &&
+           is_same(a.normals, b.normals) && is_same(a.tangents, b.tangents) &&
+           is_same(a.colors, b.colors) && is_same(a.segments, b.segments);
+  }
+
+  std::unordered_map<MeshKey, const Mesh*, MeshKey::Hash> meshes_;
+};
+
+}  // namespace microtrace
