@@ -6,7 +6,7 @@
 #include "accel/instances/dispatch.hpp"
 #include "accel/kernels/dispatch.hpp"
 #include "support/cases/adversarial_scenes.hpp"
-#include "support/cases/generated_meshes.hpp"
+#include "support/cases/placed_scenes.hpp"
 #include "support/effort.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -27,118 +27,6 @@ namespace microtrace {
 namespace {
 
 using namespace adversarial;
-
-enum class PlacementKind {
-  rigid,     // rotated, sometimes mirrored
-  lattice,   // translated by integers, so that instances touch, coincide and are coplanar
-  similar,   // scaled by powers of two up to 2^40
-  affine,    // sheared, and scaled differently along each axis
-  far_away,  // translated by 2^20 times the size of the mesh
-  extreme,   // axes scaled by 2^-40 to 2^40, some by 0
-  nested,    // the product of several placements
-};
-constexpr std::array kPlacementKinds = {
-    PlacementKind::rigid,    PlacementKind::lattice, PlacementKind::similar, PlacementKind::affine,
-    PlacementKind::far_away, PlacementKind::extreme, PlacementKind::nested};
-
-const char* name(PlacementKind kind) {
-  constexpr std::array kNames = {"rigid",    "lattice", "similar", "affine",
-                                 "far_away", "extreme", "nested"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
-DMat4 rotation(Random& random) {
-  const DVec3 axis = DVec3(random.in_cube(1)) + DVec3(0, 0, 2);
-  return glm::rotate(DMat4(1), 6.3 * random.unit(), axis);
-}
-
-DMat4 scaling(Random& random, int lo, int hi) {
-  const double x = random.power_of_two(lo, hi), y = random.power_of_two(lo, hi);
-  const double z = random.power_of_two(lo, hi);
-  return glm::scale(DMat4(1), DVec3(x, y, random.one_in(4) ? -z : z));
-}
-
-DMat4 translation(Random& random, float distance) {
-  return glm::translate(DMat4(1), DVec3(random.in_cube(distance)));
-}
-
-DMat4 placement(Random& random, PlacementKind kind) {
-  switch (kind) {
-    case PlacementKind::rigid: {
-      const DMat4 moved = translation(random, 4) * rotation(random);
-      return random.one_in(3) ? moved * scaling(random, 0, 0) : moved;
-    }
-    case PlacementKind::lattice: {
-      DMat4 m = glm::translate(DMat4(1), DVec3(random.on_grid(2)));
-      if (random.one_in(3)) m = m * scaling(random, -1, 1);
-      if (random.one_in(4)) m = m * DMat4(DMat4(0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));
-      return m;
-    }
-    case PlacementKind::similar: {
-      const double size = random.power_of_two(-40, 40);
-      return translation(random, 4) * glm::scale(rotation(random), DVec3(size));
-    }
-    case PlacementKind::affine: {
-      DMat4 m = translation(random, 4) * rotation(random) * scaling(random, -3, 3);
-      m[1] += m[0] * double{random.symmetric()};
-      m[2] += m[1] * double{random.symmetric()};
-      return m;
-    }
-    case PlacementKind::far_away:
-      return translation(random, 0x1p20F) * rotation(random);
-    case PlacementKind::extreme: {
-      DMat4 m = translation(random, 4) * rotation(random) * scaling(random, -40, 40);
-      if (random.one_in(3)) m[random.between(0, 2)] = DVec4(0);
-      return m;
-    }
-    case PlacementKind::nested:
-      break;
-  }
-  DMat4 m(1);
-  for (int i = random.between(2, 4); i > 0; --i)
-    m = m * placement(random, random.one_in(3) ? PlacementKind::affine : PlacementKind::rigid);
-  return m;
-}
-
-struct Scenes {
-  Scene instanced, baked;
-
-  void add(Shape shape) {
-    instanced.objects.push_back({.name = "", .shape = shape});
-    if (const auto* mesh = std::get_if<Mesh>(&shape)) shape = microtrace::baked(*mesh);
-    baked.objects.push_back({.name = "", .shape = std::move(shape)});
-  }
-};
-
-Mesh shared_mesh(Random& random) {
-  Mesh mesh;
-  if (random.one_in(8)) {
-    mesh = generated::displaced_sphere(3000);
-  } else {
-    mesh = std::get<Mesh>(random_scene(random).objects.front().shape);
-  }
-  mesh.positions.share();
-  mesh.triangles.share();
-  return mesh;
-}
-
-Scenes random_scenes(Random& random, PlacementKind kind) {
-  Scenes scenes;
-  for (int meshes = random.between(1, 2); meshes > 0; --meshes) {
-    const Mesh mesh = shared_mesh(random);
-    DMat4 last(1);
-    for (int i = random.between(1, 6); i > 0; --i) {
-      Mesh placed = mesh;
-      if (!random.one_in(8)) last = placement(random, kind);  // otherwise at the same place
-      placed.placement = std::make_shared<const Placement>(last);
-      scenes.add(placed);
-      if (random.one_in(6)) scenes.add(mesh);
-    }
-  }
-  if (random.one_in(3)) scenes.add(Sphere{random.on_grid(3), 1});
-  if (random.one_in(3)) scenes.add(Plane{random.on_grid(3), Vec3(0, 1, 0)});
-  return scenes;
-}
 
 std::uint32_t bits(float x) {
   return std::bit_cast<std::uint32_t>(x);
@@ -208,7 +96,7 @@ TEST_P(Instances, EqualTransformedCopiesForEveryKernelAndQuery) {
   std::size_t cast = 0, hits = 0, origins = 0, instances = 0;
   for (int round = 0; cast < count; ++round) {
     SCOPED_TRACE(round);
-    const Scenes scenes = random_scenes(random, GetParam());
+    const PlacedScenes scenes = random_placed_scenes(random, GetParam());
     const std::vector<Ray> rays =
         rays_for(random, scenes.baked, random.one_in(12) ? 2500 : random.between(20, 300));
     const Bvh copies(scenes.baked);
@@ -256,7 +144,7 @@ TEST_P(Instances, QueriesOfPointsAndAllHitsEqualThoseOfCopies) {
   std::size_t hits = 0;
   for (int round = 0; round < 30; ++round) {
     SCOPED_TRACE(round);
-    const Scenes scenes = random_scenes(random, GetParam());
+    const PlacedScenes scenes = random_placed_scenes(random, GetParam());
     const std::vector<Ray> rays = rays_for(random, scenes.baked, 100);
     std::vector<Vec3> points;
     for (int i = 0; i < 50; ++i) points.push_back(origin(random, scenes.baked));
@@ -285,12 +173,35 @@ TEST_P(Instances, QueriesOfPointsAndAllHitsEqualThoseOfCopies) {
   EXPECT_GT(hits, 1000U);
 }
 
+TEST(InstancesOfAnAnimation, KeepTheTreesOfTheirMeshes) {
+  Random random = traversal::announced_random(70);
+  const Mesh mesh = shared_mesh(random);
+  const auto frame = [&](double x) {
+    PlacedScenes scenes;
+    for (int i = 0; i < 3; ++i) {
+      Mesh placed = mesh;
+      placed.placement =
+          std::make_shared<const Placement>(glm::translate(DMat4(1), DVec3(x, 3 * i, 0)));
+      scenes.add(placed);
+    }
+    return scenes;
+  };
+  const PlacedScenes first = frame(0), second = frame(0.25);
+  const Bvh before(first.instanced);
+  const Bvh after(second.instanced, {.previous = before.tree()});
+  ASSERT_EQ(after.tree()->tree.instances.size(), 3U);
+  EXPECT_EQ(after.tree()->tree.meshes, before.tree()->tree.meshes);
+  const Bvh copies(second.baked);
+  for (const Ray& ray : rays_for(random, second.baked, 500))
+    ASSERT_TRUE(same(after.intersect(ray), copies.intersect(ray)));
+}
+
 TEST_P(Instances, BoxesOfOnePointFindTheTrianglesOfVertices) {
   Random random = traversal::announced_random(60 + static_cast<std::uint64_t>(GetParam()));
   std::size_t found = 0;
   for (int round = 0; round < 40; ++round) {
     SCOPED_TRACE(round);
-    const Scenes scenes = random_scenes(random, GetParam());
+    const PlacedScenes scenes = random_placed_scenes(random, GetParam());
     const Bvh bvh(scenes.instanced);
     const Tree& tree = bvh.tree()->tree;
     if (tree.instances.empty()) continue;

@@ -1,6 +1,7 @@
 #include "dataset/annotations/overlaps.hpp"
 
 #include "scene/occupied_part.hpp"
+#include "scene/support.hpp"
 
 #include <microtrace/math.hpp>
 #include <microtrace/shape.hpp>
@@ -17,8 +18,7 @@ PixelRect part_of(const Mesh& mesh, const Camera& camera, const RayGenerator& ra
                   const PixelRect& window) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Vec3 lo(kInfinity), hi(-kInfinity);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Vec3 position = mesh.position(i);
+  for (const Vec3& position : mesh.positions) {
     lo = glm::min(lo, position);
     hi = glm::max(hi, position);
   }
@@ -32,8 +32,16 @@ std::vector<PixelRect> parts_of_objects(const Scene& scene, const Camera& camera
                                         const RayGenerator& rays, const PixelRect& window) {
   std::vector<PixelRect> parts;
   parts.reserve(scene.objects.size());
+  ChunkedMeshes chunks;
   for (const Object& object : scene.objects) {
     const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh != nullptr && mesh->placement) {
+      const std::optional<Extent> extent = extent_of(object.shape, chunks);
+      parts.push_back(
+          extent ? occupied_part(camera, rays, Vec3(extent->low), Vec3(extent->high), window)
+                 : PixelRect{});
+      continue;
+    }
     parts.push_back(mesh == nullptr ? window : part_of(*mesh, camera, rays, window));
   }
   return parts;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <memory>
 #include <variant>
 
 namespace microtrace {
@@ -104,14 +105,15 @@ void SurfaceFinder::find(std::span<const Ray> rays, Hits hits, const SurfacePart
                          SurfaceBatch& batch, const SceneKernels& kernels) const {
   std::uint64_t others = 0;
   batch.triangles = 0;
-  std::array<PlacedTriangle, kSurfaceLanes> placed;  // left uninitialized, as most have none
+  std::unique_ptr<std::array<PlacedTriangle, kSurfaceLanes>> placed;  // made if there are any
   for_each(hits, [&](std::size_t i, const Entry& entry, PrimitiveId id) {
     batch.object[i] = static_cast<std::uint32_t>(&entry - entries_.data());
     batch.primitive[i] = id - entry.first_id;
     batch.mesh[i] = &entry.mesh;
     if (entry.placed != nullptr) {
-      placed[i].set(*entry.placed, entry.mesh, batch.primitive[i]);
-      batch.mesh[i] = &placed[i].arrays;
+      if (!placed) placed = std::make_unique<std::array<PlacedTriangle, kSurfaceLanes>>();
+      (*placed)[i].set(*entry.placed, entry.mesh, batch.primitive[i]);
+      batch.mesh[i] = &(*placed)[i].arrays;
       batch.corners[i] = kCorners.data();
     } else if (entry.mesh.corners != nullptr) {
       batch.corners[i] = entry.mesh.corners + std::size_t{3} * batch.primitive[i];
