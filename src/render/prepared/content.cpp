@@ -81,7 +81,7 @@ std::optional<PreparedScene::Content::Recentered> PreparedScene::Content::recent
     moved_.reset();
     moved_by_ = by;
     MemoryAccount account(memory_.budget());
-    account.take(memory_of(*scene_), "the scene translated to the origin");
+    account.take(memory_of(*scene_, PlacedMeshes::copied), "the scene translated to the origin");
     if (std::optional<Scene> scene = moved(*scene_, by))
       moved_ = std::make_shared<const Content>(std::make_shared<const Scene>(*std::move(scene)),
                                                options_, tables_, std::move(account));

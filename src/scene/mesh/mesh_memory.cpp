@@ -17,11 +17,12 @@ std::uint64_t memory_of(const Mesh& mesh) {
          (mesh.positions.size() + 4 * segments) * of_vertex;
 }
 
-std::uint64_t memory_of(const Scene& scene) {
+std::uint64_t memory_of(const Scene& scene, PlacedMeshes placed) {
   std::uint64_t result = scene.objects.size() * sizeof(Object);
   for (const Object& object : scene.objects) {
     const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh != nullptr && !mesh->placement) result += memory_of(*mesh);
+    if (mesh == nullptr) continue;
+    if (!mesh->placement || placed == PlacedMeshes::copied) result += memory_of(*mesh);
   }
   return result;
 }
