@@ -54,6 +54,23 @@ def as_indices(values: Any, what: str, width: int) -> Array:
     return readable(array.astype(array.dtype.newbyteorder("="), copy=False))
 
 
+def as_affine(values: Any, what: str) -> list[float]:
+    """Returns the columns of an affine (3, 4) or (4, 4) matrix as 16 numbers. Raises ValueError for
+    another shape, another last row than (0, 0, 0, 1), or numbers that are not finite."""
+    matrix: Array = np.asarray(values)
+    if matrix.dtype.kind not in "fiu":
+        raise TypeError(f"{what} must contain real numbers, not {matrix.dtype}")
+    if matrix.shape not in ((3, 4), (4, 4)):
+        raise ValueError(f"{what} must have shape (3, 4) or (4, 4), not {matrix.shape}")
+    whole = np.identity(4)
+    whole[: len(matrix)] = matrix
+    if not np.isfinite(whole).all():
+        raise ValueError(f"{what} must be finite")
+    if not np.array_equal(whole[3], (0, 0, 0, 1)):
+        raise ValueError(f"the last row of {what} must be (0, 0, 0, 1)")
+    return [float(number) for number in whole.T.flat]
+
+
 def readable(array: Array) -> Array:
     """Returns the array, or a copy if its data are not aligned or its strides are not multiples of
     the item size."""

@@ -76,8 +76,14 @@ Shape = Mesh | Sphere | Plane | Disc | Triangle | Quadric
 
 @dataclass(eq=False, repr=False)
 class Object(Brief):
-    """A shape with one material."""
+    """A shape with one material.
+
+    Objects may have the same Mesh and different placements. The mesh and its tree are then stored
+    once, and all results have the bits of those with transformed copies.
+    """
 
     shape: Shape
     material: Material | None = None  #: None means Material()
     name: str = ""
+    #: For meshes only: (3, 4) or (4, 4), an affine transform that is applied to the vertices.
+    placement: npt.ArrayLike | None = None

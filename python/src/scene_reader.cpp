@@ -6,10 +6,13 @@
 #include "fields.hpp"
 #include "images.hpp"
 
+#include <memory>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <string>
 #include <unordered_map>
+#include <variant>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -220,8 +223,23 @@ class Reader {
     return to_array<T>(nb::cast<AnyArray>(rows));
   }
 
+  /// Returns a mesh whose arrays are shared by all objects with the same Python object.
   Mesh mesh_of(const nb::handle& mesh) {
-    Mesh result;
+    if (const auto known = meshes_.find(mesh.ptr()); known != meshes_.end()) return known->second;
+    kept_meshes_.push_back(nb::borrow(mesh));  // keeps other objects from getting its address
+    Mesh& result = meshes_[mesh.ptr()];
+    read_arrays(mesh, result);
+    result.positions.share();
+    result.triangles.share();
+    result.normals.share();
+    result.tangents.share();
+    result.colors.share();
+    result.segments.share();
+    for (Array<Vec2>& set : result.uv_sets) set.share();
+    return result;
+  }
+
+  static void read_arrays(const nb::handle& mesh, Mesh& result) {
     read_rows(mesh, "vertices", result.positions);
     read_rows(mesh, "faces", result.triangles);
     read_rows(mesh, "normals", result.normals);
@@ -230,7 +248,14 @@ class Reader {
     read_rows(mesh, "segments", result.segments);
     for (const nb::handle set : mesh.attr("uv"))
       result.uv_sets.push_back(set.is_none() ? Array<Vec2>() : rows_of<Vec2>(set, "uv"));
-    return result;
+  }
+
+  static std::shared_ptr<const Placement> placement_of(const nb::handle& value) {
+    const auto numbers = nb::cast<std::array<double, 16>>(
+        nb::tuple(nb::borrow<nb::object>(member("_arrays", "as_affine")(value, "placement"))));
+    DMat4 matrix;
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = numbers[static_cast<std::size_t>(i)];
+    return std::make_shared<const Placement>(matrix);
   }
 
   Shape shape_of(const nb::handle& shape) {
@@ -251,6 +276,13 @@ class Reader {
     Object result{.name = text(object, "name"), .shape = shape_of(object.attr("shape"))};
     if (const nb::object material = object.attr("material"); !material.is_none())
       result.material = place_of_material(material);
+    if (const nb::object placement = object.attr("placement"); !placement.is_none()) {
+      auto* const mesh = std::get_if<Mesh>(&result.shape);
+      if (mesh == nullptr) throw nb::value_error("only meshes can have a placement");
+      if (!mesh->segments.empty())
+        throw nb::value_error("meshes with segments can't have a placement");
+      mesh->placement = placement_of(placement);
+    }
     scene_.objects.push_back(std::move(result));
   }
 
@@ -322,6 +354,8 @@ class Reader {
   nb::handle source_;
   Scene scene_;
   Places materials_, textures_, images_;
+  std::unordered_map<PyObject*, Mesh> meshes_;
+  std::vector<nb::object> kept_meshes_;
   const char* field_ = "";  // the field being read, for messages
 };
 

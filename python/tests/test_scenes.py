@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import gc
 import pickle
+import re
 import tracemalloc
 
 import microtrace as mt
@@ -221,6 +222,47 @@ def test_vertex_colors():
     assert np.allclose(colors[0], [0.5028865, 0.5028865, 0.5028865, 1])
     scene.add_mesh(*triangle, colors=np.full((3, 4), 0.25))
     assert scene.prepare().scene.objects[1].shape.colors[0].tolist() == [0.25] * 4
+
+
+def test_objects_share_a_mesh():
+    rng = np.random.default_rng(3)
+    vertices = rng.normal(size=(300, 3)).astype(np.float32)
+    mesh = mt.Mesh(vertices, np.arange(300).reshape(100, 3), normals=vertices.tolist())
+    matrices = [np.hstack([rng.normal(size=(3, 3)), 3 * rng.normal(size=(3, 1))]) for _ in range(5)]
+    shared = mt.Scene(objects=[mt.Object(mesh, placement=m) for m in matrices])
+    copied = mt.Scene()
+    for m in matrices:
+        x, y, z = (vertices[:, k : k + 1].astype(np.float64) for k in range(3))
+        moved = (m[:, 0] * x + m[:, 1] * y) + (m[:, 2] * z + m[:, 3])
+        faces = mesh.faces if np.linalg.det(m[:, :3]) > 0 else mesh.faces[:, [0, 2, 1]]
+        copied.objects.append(mt.Object(mt.Mesh(moved.astype(np.float32), faces)))
+    rays = np.hstack([4 * rng.normal(size=(2000, 3)), rng.normal(size=(2000, 3))])
+    hits, expected = (s.prepare().intersect(rays) for s in (shared, copied))
+    assert np.isfinite(expected.t).sum() > 200
+    for name in ("t", "object", "primitive"):
+        assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
+    back = shared.prepare().scene.objects[1].shape
+    assert np.array_equal(back.vertices, copied.objects[1].shape.vertices)
+
+
+@pytest.mark.parametrize(
+    "shape, placement, error, text",
+    [
+        (mt.Sphere(), np.identity(4), ValueError, "only meshes"),
+        (mt.Mesh([[0, 0, 0]] * 3, [[0, 1, 2]]), np.identity(3), ValueError, "(3, 4) or (4, 4)"),
+        (mt.Mesh([[0, 0, 0]] * 3, [[0, 1, 2]]), np.ones((4, 4)), ValueError, "last row"),
+        (mt.Mesh([[0, 0, 0]] * 3, [[0, 1, 2]]), np.full((3, 4), np.inf), ValueError, "finite"),
+        (
+            mt.Mesh([[0, 0, 0]] * 3, [[0, 1, 2]], segments=[[0, 1]]),
+            np.identity(4),
+            ValueError,
+            "segments",
+        ),
+    ],
+)
+def test_wrong_placements(shape, placement, error, text):
+    with pytest.raises(error, match=re.escape(text)):
+        mt.Scene(objects=[mt.Object(shape, placement=placement)]).prepare()
 
 
 def scene_with(**changes):
