@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace microtrace {
 
@@ -36,13 +37,15 @@ class TreeReader {
 
   [[nodiscard]] const WideNode& node(ChildRef node) {
     if (instance_ == nullptr) return tree_.nodes[node];
-    kernels_->scene_node(*instance_, instance_->mesh->nodes[node], node_);
-    return node_;
+    kernels_->scene_node(*instance_, instance_->mesh->nodes[node],
+                         node_ ? *node_ : node_.emplace());
+    return *node_;
   }
   [[nodiscard]] const TriangleBlock& block(std::uint32_t block) {
     if (instance_ == nullptr) return tree_.blocks[block];
-    kernels_->scene_block(*instance_, instance_->mesh->blocks[block], block_);
-    return block_;
+    kernels_->scene_block(*instance_, instance_->mesh->blocks[block],
+                          block_ ? *block_ : block_.emplace());
+    return *block_;
   }
   [[nodiscard]] PrimitiveId other(std::uint32_t other) const {
     if (instance_ == nullptr) return tree_.others[other];
@@ -53,8 +56,8 @@ class TreeReader {
   const Tree& tree_;
   const InstanceKernels* kernels_ = nullptr;  // found when an instance is entered
   const Instance* instance_ = nullptr;        // null in the scene's own tree
-  WideNode node_;
-  TriangleBlock block_;
+  std::optional<WideNode> node_;  // made for the first node of an instance, as most trees have none
+  std::optional<TriangleBlock> block_;
 };
 
 /// The number of references on the stack of a depth-first traversal.
