@@ -7,16 +7,21 @@
 namespace microtrace {
 
 /// An affine transform from a mesh's own space to scene coordinates. Points are transformed in
-/// float64 by + and *, in the order that `point` states, and rounded once. The vertices of a shared
-/// mesh are therefore the float32 numbers that a transformed copy of the mesh would store.
+/// float64 by + and *, in the order that `coordinate` states, and rounded once. The vertices of a
+/// shared mesh are therefore the float32 numbers that a transformed copy of the mesh would store.
 class MICROTRACE_EXPORT Placement {
  public:
   /// The last row of the matrix is ignored.
   explicit Placement(const DMat4& scene_from_mesh);
 
-  /// Returns M p + t, where each coordinate is (M0 x + M1 y) + (M2 z + t).
+  /// Returns M p + t.
   [[nodiscard]] DVec3 point(const DVec3& p) const {
-    return (columns_[0] * p.x + columns_[1] * p.y) + (columns_[2] * p.z + columns_[3]);
+    return {coordinate(0, p), coordinate(1, p), coordinate(2, p)};
+  }
+  /// Returns one coordinate of M p + t, which is (M0 x + M1 y) + (M2 z + t).
+  [[nodiscard]] double coordinate(int axis, const DVec3& p) const {
+    return (columns_[0][axis] * p.x + columns_[1][axis] * p.y) +
+           (columns_[2][axis] * p.z + columns_[3][axis]);
   }
   /// Returns the unit normal of a transformed surface: the inverse transpose of M times n,
   /// normalized. Zero if the result has no direction.

@@ -81,6 +81,17 @@ struct Mesh {
   /// mirrors; null: the arrays are in scene coordinates. A placed mesh must not have segments.
   std::shared_ptr<const Placement> placement{};
 
+  /// Makes later copies of this mesh share its arrays, see Array::share.
+  void share() {
+    positions.share();
+    triangles.share();
+    normals.share();
+    tangents.share();
+    for (Array<Vec2>& set : uv_sets) set.share();
+    colors.share();
+    segments.share();
+  }
+
   /// Returns a vertex in scene coordinates.
   [[nodiscard]] Vec3 position(std::size_t vertex) const {
     const Vec3& p = positions[vertex];

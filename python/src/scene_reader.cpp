@@ -225,21 +225,14 @@ class Reader {
 
   /// Returns a mesh whose arrays are shared by all objects with the same Python object.
   Mesh mesh_of(const nb::handle& mesh) {
-    if (const auto known = meshes_.find(mesh.ptr()); known != meshes_.end()) return known->second;
-    kept_meshes_.push_back(nb::borrow(mesh));  // keeps other objects from getting its address
-    Mesh& result = meshes_[mesh.ptr()];
-    read_arrays(mesh, result);
-    result.positions.share();
-    result.triangles.share();
-    result.normals.share();
-    result.tangents.share();
-    result.colors.share();
-    result.segments.share();
-    for (Array<Vec2>& set : result.uv_sets) set.share();
-    return result;
+    return meshes_[places_of_meshes_.of(mesh, [&] {
+      meshes_.push_back(arrays_of(mesh));
+      meshes_.back().share();
+    })];
   }
 
-  static void read_arrays(const nb::handle& mesh, Mesh& result) {
+  static Mesh arrays_of(const nb::handle& mesh) {
+    Mesh result;
     read_rows(mesh, "vertices", result.positions);
     read_rows(mesh, "faces", result.triangles);
     read_rows(mesh, "normals", result.normals);
@@ -248,6 +241,7 @@ class Reader {
     read_rows(mesh, "segments", result.segments);
     for (const nb::handle set : mesh.attr("uv"))
       result.uv_sets.push_back(set.is_none() ? Array<Vec2>() : rows_of<Vec2>(set, "uv"));
+    return result;
   }
 
   static std::shared_ptr<const Placement> placement_of(const nb::handle& value) {
@@ -353,9 +347,8 @@ class Reader {
 
   nb::handle source_;
   Scene scene_;
-  Places materials_, textures_, images_;
-  std::unordered_map<PyObject*, Mesh> meshes_;
-  std::vector<nb::object> kept_meshes_;
+  Places materials_, textures_, images_, places_of_meshes_;
+  std::vector<Mesh> meshes_;
   const char* field_ = "";  // the field being read, for messages
 };
 

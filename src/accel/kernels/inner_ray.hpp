@@ -77,27 +77,26 @@ inline bool enter(const Instance& instance, const KernelRay& ray, InnerRay& inne
   return suits;
 }
 
-/// The tree that a ray traverses: the scene's, or that of an instance's mesh.
+/// The tree that a ray or a query traverses: the scene's, or that of an instance's mesh.
 struct Scope {
   const WideNode* nodes;
   const TriangleBlock* blocks;
   const std::uint32_t* others;
   const Instance* instance;  ///< null for the scene's tree
-  const BoxRay* box;
 
-  void set(const TreeView& tree, const KernelRay& ray) {
-    nodes = tree.nodes;
-    blocks = tree.blocks;
-    others = tree.others;
-    instance = nullptr;
-    box = &ray.box;
-  }
-  void set(const Instance& entered, const InnerRay& ray) {
-    nodes = entered.mesh->nodes;
-    blocks = entered.mesh->blocks;
-    others = entered.mesh->others;
-    instance = &entered;
-    box = &ray.box;
+  Scope() = default;
+  explicit Scope(const TreeView& tree)
+      : nodes(tree.nodes), blocks(tree.blocks), others(tree.others), instance(nullptr) {}
+  explicit Scope(const Instance& entered)
+      : nodes(entered.mesh->nodes),
+        blocks(entered.mesh->blocks),
+        others(entered.mesh->others),
+        instance(&entered) {}
+
+  /// Returns what belongs to the scope: `inner` in an instance, otherwise `outer`.
+  template <class T>
+  [[nodiscard]] const T& choose(const T& outer, const T& inner) const {
+    return instance == nullptr ? outer : inner;
   }
   [[nodiscard]] std::uint32_t first_id() const {
     return instance != nullptr ? instance->first_id : 0;

@@ -17,22 +17,22 @@ struct StackEntry {
 template <int N, bool kAny, class Slowly>
 inline void walk(const TreeView& tree, KernelRay& ray, const Slowly& fallback, ClosestSoFar& best) {
   prepare_ray(ray);
-  Scope scope;
-  scope.set(tree, ray);
+  Scope scope(tree);
   InnerRay inner;
   RayStack stack;
   stack.clear();
   for (ChildRef next = tree.root; next != kFinished;) {
     if ((next & child_ref::kKind) == 0) {
-      next = step_into<N, kAny, false>(scope.nodes[next], *scope.box, ray.t_begin, best.hi, stack);
+      next = step_into<N, kAny, false>(scope.nodes[next], scope.choose(ray.box, inner.box),
+                                       ray.t_begin, best.hi, stack);
       continue;
     }
     if (next == kInstanceEnd) {
-      scope.set(tree, ray);
+      scope = Scope(tree);
     } else if (is_instance(next)) {
       const Instance& instance = tree.instances[next - child_ref::kFirstInstance];
       if (enter(instance, ray, inner)) {
-        scope.set(instance, inner);
+        scope = Scope(instance);
         stack.push_instance_end();
         next = instance.mesh->root;
         continue;

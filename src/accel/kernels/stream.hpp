@@ -26,9 +26,9 @@ class StreamWalk {
     for (std::uint32_t slot = 0; slot < kInFlight; ++slot) start(slot);
     while (sort_places() > 0) {
       for_each(nodes_, [&](Flight& flight, ChildRef& next) {
-        next = step_into<N, kAny, !kInstances>(scope(flight).nodes[next],
-                                               kInstances ? *flight.scope.box : flight.ray.box,
-                                               flight.ray.t_begin, flight.best.hi, flight.stack);
+        next = step_into<N, kAny, !kInstances>(
+            scope(flight).nodes[next], in_instance(flight) ? flight.inner.box : flight.ray.box,
+            flight.ray.t_begin, flight.best.hi, flight.stack);
       });
       meet_blocks();
       for_each(others_, [&](Flight& flight, ChildRef& next) {
@@ -60,6 +60,9 @@ class StreamWalk {
   [[nodiscard]] const Scope& scope(const Flight& flight) const {
     return kInstances ? flight.scope : whole_;
   }
+  [[nodiscard]] static bool in_instance(const Flight& flight) {
+    return kInstances && flight.scope.instance != nullptr;
+  }
 
   struct List {
     int size = 0;
@@ -74,11 +77,11 @@ class StreamWalk {
   // Enters an instance, or leaves it if all of its subtrees have been visited.
   void meet_instance(Flight& flight, ChildRef& next) {
     if (next == kInstanceEnd) {
-      flight.scope.set(tree_, flight.ray);
+      flight.scope = Scope(tree_);
     } else {
       const Instance& instance = tree_.instances[next - child_ref::kFirstInstance];
       if (enter(instance, flight.ray, flight.inner)) {
-        flight.scope.set(instance, flight.inner);
+        flight.scope = Scope(instance);
         flight.stack.push_instance_end();
         next = instance.mesh->root;
         return;
@@ -110,7 +113,7 @@ class StreamWalk {
     }
     set_origin(flight.ray.o, flight.ray.box);
     find_planes(flight.ray.d, flight.ray.box);
-    if constexpr (kInstances) flight.scope.set(tree_, flight.ray);
+    if constexpr (kInstances) flight.scope = Scope(tree_);
     flight.ray.t_min = stream_.t_min[i];
     flight.ray.t_begin = stream_.t_begin[i];
     flight.ray.d_sum = stream_.d_sum[i];
@@ -148,10 +151,10 @@ class StreamWalk {
     int hits = 0;
     for_each(leaves_, [&](Flight& flight, ChildRef& next) {
       const TriangleBlock& block = scope(flight).blocks[first_entry(next)];
-      if (!kInstances || flight.scope.instance == nullptr)
-        flight.test.run(block, flight.ray, flight.best.hi);
-      else
+      if (in_instance(flight))
         flight.test.run(block, flight.inner, flight.ray.t_begin, flight.best.hi);
+      else
+        flight.test.run(block, flight.ray, flight.best.hi);
       hits_[hits] = {&flight, &block};
       hits += flight.test.maybe != 0;
       // The leaf's remaining blocks are pushed as a separate leaf.
@@ -163,9 +166,9 @@ class StreamWalk {
     });
     for (int k = 0; k < hits; ++k) {
       const auto [flight, block] = hits_[k];
-      if (const Instance* const instance = scope(*flight).instance)
-        meet_instance_lanes<N, kAny>(tree_, *instance, *block, flight->test, flight->ray,
-                                     flight->best, fallback(*flight));
+      if (in_instance(*flight))
+        meet_instance_lanes<N, kAny>(tree_, *flight->scope.instance, *block, flight->test,
+                                     flight->ray, flight->best, fallback(*flight));
       else
         meet_lanes<N, kAny>(tree_, *block, flight->test, flight->ray, flight->best,
                             fallback(*flight));
@@ -238,9 +241,8 @@ class StreamWalk {
   KernelStream& stream_;
   const StreamFallback& slow_;
   const StreamItems* items_;
-  // The scope of all rays if there are no instances; `box` is not used.
-  const Scope whole_{tree_.nodes, tree_.blocks, tree_.others, nullptr, nullptr};
-  int started_ = 0;  // number of rays or items started so far
+  const Scope whole_{tree_};  // the scope of all rays if there are no instances
+  int started_ = 0;           // number of rays or items started so far
   List nodes_, leaves_, others_, instances_, finished_;
   ChildRef next_[kInFlight];  // the subtree that the ray in each slot visits next
   MaybeHit hits_[kInFlight + 1];

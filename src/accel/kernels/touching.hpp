@@ -38,8 +38,8 @@ inline void enter(const Instance& instance, const BoxQuery& query, BoxQuery& inn
 /// The state of a query's traversal.
 struct BoxSearch {
   int size;
-  const Instance* instance;  ///< null in the scene's tree
-  BoxQuery inner;            ///< the box in the space of the instance's mesh
+  Scope scope;
+  BoxQuery inner;  ///< the box in the space of the instance's mesh, in the scope of an instance
   ChildRef stack[kStackSize + kWidth];
 };
 
@@ -47,23 +47,24 @@ struct BoxSearch {
 template <int N>
 inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   const ChildRef next = search.stack[--search.size];
-  const Instance* const instance = search.instance;
+  const Scope& scope = search.scope;
   if ((next & child_ref::kKind) == 0) {
-    const WideNode& node = instance == nullptr ? tree.nodes[next] : instance->mesh->nodes[next];
-    const Lanes lanes = touched_children<N>(node, instance == nullptr ? query : search.inner);
+    const WideNode& node = scope.nodes[next];
+    const Lanes lanes = touched_children<N>(node, scope.choose(query, search.inner));
     store_lanes(lanes, node.child, search.stack + search.size);
     search.size += __builtin_popcount(lanes);
     return;
   }
   if (next == kInstanceEnd) {
-    search.instance = nullptr;
+    search.scope = Scope(tree);
     return;
   }
   if (is_instance(next)) {
-    search.instance = &tree.instances[next - child_ref::kFirstInstance];
-    enter(*search.instance, query, search.inner);
+    const Instance& instance = tree.instances[next - child_ref::kFirstInstance];
+    search.scope = Scope(instance);
+    enter(instance, query, search.inner);
     search.stack[search.size++] = kInstanceEnd;
-    search.stack[search.size++] = search.instance->mesh->root;
+    search.stack[search.size++] = instance.mesh->root;
     return;
   }
   const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
@@ -71,18 +72,17 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   bool overflows = false;
   for (std::uint32_t i = first; i < end && !overflows; ++i) {
     if (!are_triangles) {
-      overflows =
-          instance == nullptr
-              ? adds_too_many(query, kOtherSlot + i)
-              : adds_too_many(query, kIdSlot, instance->first_id + instance->mesh->others[i]);
+      overflows = scope.instance == nullptr
+                      ? adds_too_many(query, kOtherSlot + i)
+                      : adds_too_many(query, kIdSlot, scope.first_id() + scope.others[i]);
       continue;
     }
     TriangleBlock placed;
-    if (instance != nullptr) {
-      if (touched_triangles<N>(instance->mesh->blocks[i], search.inner) == 0) continue;
-      tree.scene_block(*instance, instance->mesh->blocks[i], placed);
+    if (scope.instance != nullptr) {
+      if (touched_triangles<N>(scope.blocks[i], search.inner) == 0) continue;
+      tree.scene_block(*scope.instance, scope.blocks[i], placed);
     }
-    const TriangleBlock& block = instance == nullptr ? tree.blocks[i] : placed;
+    const TriangleBlock& block = scope.choose(scope.blocks[i], placed);
     Lanes lanes = touched_triangles<N>(block, query);
     if (lanes != 0) lanes &= ~omitted_triangles<N>(block, query);
     if (lanes != 0) {  // often false on axis-aligned walls
@@ -95,8 +95,8 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
     }
     for (; lanes != 0 && !overflows; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(first_lane(lanes));
-      overflows = instance == nullptr ? adds_too_many(query, i * kWidth + lane)
-                                      : adds_too_many(query, kIdSlot, block.id[lane]);
+      overflows = scope.instance == nullptr ? adds_too_many(query, i * kWidth + lane)
+                                            : adds_too_many(query, kIdSlot, block.id[lane]);
     }
   }
   if (overflows) search.size = 0;
@@ -175,7 +175,7 @@ void touching(const TreeView& tree, BoxQuery* queries, int count) {
   int going[kBoxQueries], left = 0;
   for (int i = 0; i < count; ++i) {
     searches[i].size = 1;
-    searches[i].instance = nullptr;
+    searches[i].scope = Scope(tree);
     searches[i].stack[0] = tree.root;
     queries[i].count = 0;
     going[left] = i;

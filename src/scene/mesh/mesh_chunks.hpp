@@ -23,21 +23,27 @@ class MeshChunks {
   };
 
   /// Calls point(p) for all vertices of a placed mesh, in scene coordinates, except for chunks for
-  /// whose box skips(box) is true. The box contains all finite vertices of the chunk.
+  /// whose box skips(box) is true. The box contains all finite vertices of the chunk. Begins with
+  /// the chunks that reach farthest along each axis, after which most others can be skipped. May
+  /// visit a chunk twice.
   template <class Skips, class Point>
   void visit(const Mesh& mesh, const Skips& skips, const Point& point) const {
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      const Box box = placed(boxes_[i], *mesh.placement);
-      if (!(box.lo.x <= box.hi.x) || skips(box)) continue;
+    const std::vector<Box> boxes = placed(*mesh.placement);
+    const auto visit_chunk = [&](std::size_t i) {
+      if (!(boxes[i].lo.x <= boxes[i].hi.x) || skips(boxes[i])) return;
       const std::size_t end = std::min(mesh.positions.size(), (i + 1) * kSize);
       for (std::size_t k = i * kSize; k < end; ++k) point(mesh.position(k));
-    }
+    };
+    for (const std::size_t i : farthest(boxes)) visit_chunk(i);
+    for (std::size_t i = 0; i < boxes.size(); ++i) visit_chunk(i);
   }
 
  private:
   static constexpr std::size_t kSize = 64;  // number of vertices
 
-  static Box placed(const Box& box, const Placement& placement);
+  [[nodiscard]] std::vector<Box> placed(const Placement& placement) const;
+  /// Returns the indices of the boxes with the least and the greatest coordinate on each axis.
+  [[nodiscard]] static std::vector<std::size_t> farthest(const std::vector<Box>& boxes);
 
   std::vector<Box> boxes_;
 };

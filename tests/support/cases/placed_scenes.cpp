@@ -78,8 +78,7 @@ Mesh shared_mesh(Random& random) {
   } else {
     mesh = std::get<Mesh>(random_scene(random).objects.front().shape);
   }
-  mesh.positions.share();
-  mesh.triangles.share();
+  mesh.share();
   return mesh;
 }
 

@@ -5,9 +5,9 @@
 
 #include <microtrace/error.hpp>
 
-#include <algorithm>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 #include <variant>
 
 namespace microtrace::build {
@@ -55,10 +55,10 @@ std::vector<bool> find_instances(const Primitives& primitives, const BuildOption
 
 std::uint64_t stored_primitives(const Primitives& primitives) {
   std::uint64_t count = 0;
-  std::unordered_map<MeshKey, bool, MeshKey::Hash> known;
+  std::unordered_set<MeshKey, MeshKey::Hash> known;
   for (const Object& object : primitives.scene().objects) {
     const Mesh* const mesh = placed_mesh(object);
-    if (mesh == nullptr || known.emplace(MeshKey(*mesh), true).second)
+    if (mesh == nullptr || known.insert(MeshKey(*mesh)).second)
       count += primitive_count(object.shape);
     else
       ++count;

@@ -1,6 +1,7 @@
 #include "accel/build/instances/mesh_tree.hpp"
 
 #include "accel/build/instances/scene_box.hpp"
+#include "accel/build/references/reference.hpp"
 #include "accel/build/wide/wide_tree.hpp"
 
 #include <microtrace/primitives.hpp>
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kUnit = 0x1p-24;  // unit roundoff of float32
 constexpr double kGreatestScale = 0x1p16;
-constexpr double kGreatestCoordinate = 0x1p38;
 
 /// Returns a mesh with the same triangles as a scene of its own.
 Scene scene_of(const Mesh& mesh) {
@@ -89,8 +89,7 @@ OwnedMeshTree::OwnedMeshTree(const Mesh& mesh, const BuildOptions& options)
            .blocks = tree.blocks.data(),
            .others = tree.others.data(),
            .root = tree.root,
-           .triangles = static_cast<std::uint32_t>(mesh.triangles.size())},
-      bounds(tree.bounds) {
+           .triangles = static_cast<std::uint32_t>(mesh.triangles.size())} {
   if (!mesh.positions.is_borrowed() || !mesh.triangles.is_borrowed()) return;
   positions = mesh.positions;
   triangles = mesh.triangles;
@@ -114,19 +113,18 @@ std::optional<build::PlacedInstance> build::make_instance(const OwnedMeshTree& t
   instance.first_id = first_id;
   instance.is_mirrored = placement.is_mirrored() ? 1 : 0;
   result.box = scene_box(instance, tree.tree, mesh);
-  const Bounds in_scene = bounds_of(result.box);
+  if (!fits_blocks(result.box)) return std::nullopt;
+  const Bounds in_scene = bounds_of(result.box), &in_mesh = tree.tree.bounds;
   double reach = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double t = placement.column(3)[axis];
     double size = std::abs(t);
-    for (int k = 0; k < 3; ++k) {
-      if (!(greatest(tree.bounds.lo, tree.bounds.hi, k) <= kGreatestCoordinate))
-        return std::nullopt;
-      size += std::abs(placement.column(k)[axis]) * greatest(tree.bounds.lo, tree.bounds.hi, k);
-    }
-    const double coordinate = greatest(in_scene.lo, in_scene.hi, axis);
-    if (!(coordinate <= kGreatestCoordinate && std::abs(t) <= kGreatestCoordinate))
+    if (!(greatest(in_mesh.lo, in_mesh.hi, axis) <= kLargestInBlocks &&
+          std::abs(t) <= kLargestInBlocks))
       return std::nullopt;
+    for (int k = 0; k < 3; ++k)
+      size += std::abs(placement.column(k)[axis]) * greatest(in_mesh.lo, in_mesh.hi, k);
+    const double coordinate = greatest(in_scene.lo, in_scene.hi, axis);
     // The rounding of vertices, and the part of rho.
     const double rounding = 1.01 * kUnit * coordinate + 0x1p-49 * size + 0x1p-140;
     reach += 1.2 * rounding + 5 * kUnit * greatest(in_scene.lo, in_scene.hi, axis, t);

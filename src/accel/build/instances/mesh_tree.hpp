@@ -16,7 +16,6 @@ namespace microtrace {
 struct OwnedMeshTree {
   Tree tree;
   MeshTree view{};  ///< refers to `tree`
-  Bounds bounds;    ///< of the triangles
   /// The arrays of the mesh, if they are shared, so that their addresses identify the mesh as long
   /// as this object exists.
   Array<Vec3> positions;

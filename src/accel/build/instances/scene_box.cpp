@@ -12,11 +12,6 @@
 namespace microtrace::build {
 namespace {
 
-Box box_of_child(const WideNode& node, std::size_t i) {
-  return Box{.lo = {node.lo_x[i], node.lo_y[i], node.lo_z[i], 0},
-             .hi = {node.hi_x[i], node.hi_y[i], node.hi_z[i], 0}};
-}
-
 bool contains(const Box& outer, const Box& inner) {
   const Int4 is_outside = (inner.lo < outer.lo) | (outer.hi < inner.hi);
   return (is_outside[0] | is_outside[1] | is_outside[2]) == 0;

@@ -48,9 +48,7 @@ void set_box(WideNode& node, std::size_t i, const Box& box) {
 
 Box union_of_children(const WideNode& node) {
   Box box;
-  for (std::size_t i = 0; i < kWidth; ++i)
-    box.include(Box{.lo = {node.lo_x[i], node.lo_y[i], node.lo_z[i], 0},
-                    .hi = {node.hi_x[i], node.hi_y[i], node.hi_z[i], 0}});
+  for (std::size_t i = 0; i < kWidth; ++i) box.include(box_of_child(node, i));
   return box;
 }
 

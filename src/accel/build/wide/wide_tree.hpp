@@ -20,6 +20,10 @@ namespace microtrace::build {
 }
 
 void set_box(WideNode& node, std::size_t i, const Box& box);
+[[nodiscard]] inline Box box_of_child(const WideNode& node, std::size_t i) {
+  return Box{.lo = {node.lo_x[i], node.lo_y[i], node.lo_z[i], 0},
+             .hi = {node.hi_x[i], node.hi_y[i], node.hi_z[i], 0}};
+}
 [[nodiscard]] Box union_of_children(const WideNode& node);
 [[nodiscard]] Bounds bounds_of(const Box& box);
 

@@ -45,12 +45,12 @@ void scene_block(const Instance& instance, const TriangleBlock& from, TriangleBl
     product = greater(F(edges[0] * edges[1]), product);
   }
   to.largest_edge = to.edge_product = 0;
+  float largest_lanes[N], product_lanes[N];
+  store<N>(largest_lanes, largest);
+  store<N>(product_lanes, product);
   for (int i = 0; i < N; ++i) {
-    float values[2][N];
-    store<N>(values[0], largest);
-    store<N>(values[1], product);
-    to.largest_edge = greater(values[0][i], to.largest_edge);
-    to.edge_product = greater(values[1][i], to.edge_product);
+    to.largest_edge = greater(largest_lanes[i], to.largest_edge);
+    to.edge_product = greater(product_lanes[i], to.edge_product);
   }
   to.edge_product = to.edge_product * (1 + 0x1p-22F) + 0x1p-126F;
   for (int i = 0; i < kWidth; ++i) to.id[i] = from.id[i] + instance.first_id;

@@ -18,8 +18,7 @@ template <int N>
 class PacketWalk {
  public:
   PacketWalk(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow)
-      : tree_(tree), packet_(packet), slow_(slow) {
-    leave_instance();
+      : tree_(tree), packet_(packet), slow_(slow), scope_(tree) {
     update_limit();
   }
 
@@ -31,15 +30,13 @@ class PacketWalk {
       const StackEntry entry = stack[--top];
       if (entry.near > limit_) continue;
       if ((entry.child & child_ref::kKind) == 0) {
-        top = push_children(nodes_[entry.child], stack, top);
+        top = push_children(scope_.nodes[entry.child], stack, top);
       } else if (entry.child == kInstanceEnd) {
-        leave_instance();
+        scope_ = Scope(tree_);
       } else if (is_instance(entry.child)) {
         const Instance& instance = tree_.instances[entry.child - child_ref::kFirstInstance];
         if (enter<N>(instance, packet_, inner_)) {
-          instance_ = &instance;
-          nodes_ = instance.mesh->nodes;
-          boxes_ = &inner_;
+          scope_ = Scope(instance);
           stack[top++] = {kInstanceEnd, -__builtin_inff()};
           stack[top++] = {instance.mesh->root, entry.near};
         } else {
@@ -55,12 +52,6 @@ class PacketWalk {
   }
 
  private:
-  void leave_instance() {
-    instance_ = nullptr;
-    nodes_ = tree_.nodes;
-    boxes_ = &packet_.boxes;
-  }
-
   using F = Float<N>;
   static constexpr int kNodeLanes = N < kWidth ? N : kWidth;
   using B = Float<kNodeLanes>;
@@ -80,8 +71,8 @@ class PacketWalk {
   [[nodiscard]] Slab slab(const WideNode& node, int axis) const {
     const float* lo = axis == 0 ? node.lo_x : axis == 1 ? node.lo_y : node.lo_z;
     const float* hi = axis == 0 ? node.hi_x : axis == 1 ? node.hi_y : node.hi_z;
-    const float o_of_lo = boxes_->o_of_lo[axis], o_of_hi = boxes_->o_of_hi[axis];
-    return boxes_->negative[axis] ? Slab{hi, lo, o_of_hi, o_of_lo} : Slab{lo, hi, o_of_lo, o_of_hi};
+    const float o_of_lo = boxes().o_of_lo[axis], o_of_hi = boxes().o_of_hi[axis];
+    return boxes().negative[axis] ? Slab{hi, lo, o_of_hi, o_of_lo} : Slab{lo, hi, o_of_lo, o_of_hi};
   }
 
   int push_children(const WideNode& node, StackEntry* stack, int top) const {
@@ -90,14 +81,14 @@ class PacketWalk {
     for (int i = 0; i < kWidth; i += kNodeLanes) {
       B enter = all<kNodeLanes>(packet_.least_t_begin), leave = all<kNodeLanes>(limit_);
       for (int axis = 0; axis < 3; ++axis) {
-        if (!boxes_->common_sign[axis]) continue;
+        if (!boxes().common_sign[axis]) continue;
         const Slab planes = slab(node, axis);
         const B in = load<kNodeLanes>(planes.enter + i) - planes.o_of_enter;
         const B out = load<kNodeLanes>(planes.leave + i) - planes.o_of_leave;
         enter =
-            greater(lesser(in * boxes_->least_near[axis], in * boxes_->greatest_near[axis]), enter);
+            greater(lesser(in * boxes().least_near[axis], in * boxes().greatest_near[axis]), enter);
         leave =
-            lesser(greater(out * boxes_->least_far[axis], out * boxes_->greatest_far[axis]), leave);
+            lesser(greater(out * boxes().least_far[axis], out * boxes().greatest_far[axis]), leave);
       }
       entered |= less_equal<kNodeLanes>(enter, leave) << i;
       store<kNodeLanes>(near + i, enter);
@@ -105,7 +96,7 @@ class PacketWalk {
     const int first = top;
     for (; entered != 0; entered &= entered - 1) {
       const int lane = first_lane(entered);
-      if (!some_ray_enters<N>(packet_, *boxes_, node, lane)) continue;
+      if (!some_ray_enters<N>(packet_, boxes(), node, lane)) continue;
       const StackEntry entry{node.child[lane], near[lane]};
       fetch(entry.child);
       int slot = top++;
@@ -120,9 +111,10 @@ class PacketWalk {
   __attribute__((always_inline)) void fetch(ChildRef child) const {
     const bool is_node = (child & child_ref::kKind) == 0;
     // Addresses are computed as integers, because the array is null if there are no triangles.
-    const auto p = is_node ? reinterpret_cast<std::uintptr_t>(nodes_) + child * sizeof(WideNode)
-                           : reinterpret_cast<std::uintptr_t>(blocks()) +
-                                 first_entry(child) * sizeof(TriangleBlock);
+    const auto p = is_node
+                       ? reinterpret_cast<std::uintptr_t>(scope_.nodes) + child * sizeof(WideNode)
+                       : reinterpret_cast<std::uintptr_t>(scope_.blocks) +
+                             first_entry(child) * sizeof(TriangleBlock);
     const std::uintptr_t lines = is_node ? 4 : 5;
     for (std::uintptr_t i = 0; i < lines; ++i) {
       // NOLINTNEXTLINE(performance-no-int-to-ptr): only prefetched
@@ -138,23 +130,20 @@ class PacketWalk {
       });
     } else {
       for_each_entry(leaf, [&](std::uint32_t i) {
-        const std::uint32_t id = instance_ == nullptr
-                                     ? tree_.others[i]
-                                     : instance_->first_id + instance_->mesh->others[i];
-        slow_.consider_all(slow_.context, id, packet_);
+        slow_.consider_all(slow_.context, scope_.first_id() + scope_.others[i], packet_);
         return false;
       });
     }
   }
 
-  [[nodiscard]] const TriangleBlock* blocks() const {
-    return instance_ == nullptr ? tree_.blocks : instance_->mesh->blocks;
-  }
+  /// The rays for the boxes of the tree that they traverse.
+  [[nodiscard]] const PacketBoxRays& boxes() const { return scope_.choose(packet_.boxes, inner_); }
 
   void meet_block(std::uint32_t index) {
-    if (instance_ == nullptr) return meet_block(tree_.blocks[index], index);
+    const TriangleBlock& block = scope_.blocks[index];
+    if (scope_.instance == nullptr) return meet_block(block, index);
     TriangleBlock placed;
-    tree_.scene_block(*instance_, instance_->mesh->blocks[index], placed);
+    tree_.scene_block(*scope_.instance, block, placed);
     meet_block(placed, kNoBlock);
   }
 
@@ -270,13 +259,9 @@ class PacketWalk {
   const TreeView& tree_;
   KernelPacket& packet_;
   const PacketFallback& slow_;
-  // The tree that the rays traverse, and their form for its boxes. instance_ is null in the scene's
-  // own tree.
-  const Instance* instance_;
-  const WideNode* nodes_;
-  const PacketBoxRays* boxes_;
-  PacketBoxRays inner_;
-  float limit_ = 0;  // a hit beyond this t can't be the nearest hit of any ray
+  Scope scope_;
+  PacketBoxRays inner_;  // the rays for boxes, in the scope of an instance
+  float limit_ = 0;      // a hit beyond this t can't be the nearest hit of any ray
 };
 
 template <int N>

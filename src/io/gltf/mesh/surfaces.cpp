@@ -109,21 +109,11 @@ class SurfaceMaker {
     const bool has_normals = primitive.attributes.contains("NORMAL");
     if (!result.mesh.segments.empty() && !has_normals) result.material = unlit(result.material);
     for (const Vec3& p : result.mesh.positions) result.box.add(DVec3(p));
-    share_arrays(result.mesh);
+    result.mesh.share();  // between the objects of all nodes with this mesh
     return result;
   }
 
  private:
-  /// Makes the objects of all nodes with this mesh share its arrays.
-  static void share_arrays(Mesh& mesh) {
-    mesh.positions.share();
-    mesh.triangles.share();
-    mesh.normals.share();
-    mesh.tangents.share();
-    mesh.colors.share();
-    for (Array<Vec2>& set : mesh.uv_sets) set.share();
-  }
-
   /// Returns the index of the primitive's material. Primitives without one use the default
   /// material, which make_materials appends.
   std::uint32_t material_of(const Model::Primitive& primitive) const {
