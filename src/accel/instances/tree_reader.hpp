@@ -37,8 +37,9 @@ class TreeReader {
 
   [[nodiscard]] const WideNode& node(ChildRef node) {
     if (instance_ == nullptr) return tree_.nodes[node];
-    kernels_->scene_node(*instance_, instance_->mesh->nodes[node],
-                         node_ ? *node_ : node_.emplace());
+    if (!node_) node_.emplace();
+    kernels_->scene_node(*instance_, instance_->mesh->nodes[node], *node_);
+    enlarge(*node_, instance_->reach);
     return *node_;
   }
   [[nodiscard]] const TriangleBlock& block(std::uint32_t block) {
@@ -53,6 +54,18 @@ class TreeReader {
   }
 
  private:
+  /// Boxes of scene_node contain the vertices of their triangles, but not always the points between
+  /// them: the tree splits large triangles, and the triangle of the rounded vertices may leave the
+  /// image of a part's box. With the rounding errors e_j of inner_ray.hpp, it leaves the exact
+  /// image by at most e_j, the image is rounded with an error of at most e_j, and so is the result
+  /// here. `reach` exceeds 1.2 e_j.
+  static void enlarge(WideNode& node, float reach) {
+    for (float* const lo : {node.lo_x, node.lo_y, node.lo_z})
+      for (int i = 0; i < kWidth; ++i) lo[i] -= 3 * reach;
+    for (float* const hi : {node.hi_x, node.hi_y, node.hi_z})
+      for (int i = 0; i < kWidth; ++i) hi[i] += 3 * reach;
+  }
+
   const Tree& tree_;
   const InstanceKernels* kernels_ = nullptr;  // found when an instance is entered
   const Instance* instance_ = nullptr;        // null in the scene's own tree

@@ -3,7 +3,8 @@
 ///
 /// Vertices are computed by the operations of Placement::point, each of which is rounded. Rounded
 /// sums and products with a constant are monotonic. So the least and greatest results for a box are
-/// those at two of its corners, which the signs of the matrix select: boxes need no margin.
+/// those at two of its corners, which the signs of the matrix select: all vertices in a box are in
+/// the transformed box, without a margin.
 
 #include "accel/instances/kernels/kernel.hpp"
 #include "simd/vectors.hpp"
