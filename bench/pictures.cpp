@@ -1,6 +1,7 @@
-// Measures the rendering of whole pictures without file output: rays per second for a scene's first
-// camera, for several numbers of threads.
+// Measures the rendering of whole pictures without file output: pixels per second for a scene's
+// first camera, for several numbers of threads, and for a program written by hand.
 
+#include "exercise_by_hand.hpp"
 #include "support/cases/generated_meshes.hpp"
 
 #include <microtrace/framing.hpp>
@@ -21,15 +22,30 @@ namespace {
 
 using namespace microtrace;
 
+benchmark::Counter pixels(ImageSize size) {
+  return {double{1} * size.width * size.height, benchmark::Counter::kIsIterationInvariantRate};
+}
+
+/// Renders a picture and encodes it as 8-bit PPM.
 void picture(benchmark::State& state, const char* name) {
   const Scene scene =
       load_scene(std::filesystem::path(MICROTRACE_SOURCE_DIR "/scenes") / name).scene;
   const RenderOptions options{.threads = static_cast<unsigned>(state.range(0))};
   for (auto _ : state)
-    benchmark::DoNotOptimize(render(scene, scene.cameras[0].camera, scene.size, options));
-  state.counters["pixels/s"] = benchmark::Counter(double{1} * scene.size.width * scene.size.height,
-                                                  benchmark::Counter::kIsIterationInvariantRate);
+    benchmark::DoNotOptimize(encode_ppm(render(scene, scene.cameras[0].camera, scene.size, options),
+                                        PpmEncoding::binary));
+  state.counters["pixels/s"] = pixels(scene.size);
 }
+
+/// Does the same by the program that microtrace is compared with.
+void by_hand_picture(benchmark::State& state, const by_hand::Camera& camera) {
+  constexpr ImageSize kSize{.width = 640, .height = 480};
+  for (auto _ : state) benchmark::DoNotOptimize(by_hand::render(camera, kSize.width, kSize.height));
+  state.counters["pixels/s"] = pixels(kSize);
+}
+constexpr by_hand::Camera kFirst{{0, 0, 10}, {0, 0, -1}, {0, 1, 0}, 60};
+constexpr by_hand::Camera kSecond{{-8, 3, 8}, {1, -0.1F, -1}, {0, 1, 0}, 45};
+constexpr by_hand::Camera kThird{{-8, 3, 8}, {1, -0.1F, -1}, {1, 1, 0}, 45};
 
 /// Renders depth, both normals and object ids of a view of 15 000 triangles on one thread, and
 /// measures processor time.
@@ -72,6 +88,9 @@ void encode(benchmark::State& state, PpmEncoding encoding) {
 BENCHMARK_CAPTURE(picture, perspective1, "perspective1.json")->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK_CAPTURE(picture, perspective2, "perspective2.json")->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK_CAPTURE(picture, perspective3, "perspective3.json")->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK_CAPTURE(by_hand_picture, perspective1, kFirst)->UseRealTime();
+BENCHMARK_CAPTURE(by_hand_picture, perspective2, kSecond)->UseRealTime();
+BENCHMARK_CAPTURE(by_hand_picture, perspective3, kThird)->UseRealTime();
 BENCHMARK(aovs)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(encode, binary, PpmEncoding::binary);
 BENCHMARK_CAPTURE(encode, ascii, PpmEncoding::ascii);

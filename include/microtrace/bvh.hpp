@@ -2,6 +2,7 @@
 /// Finds the nearest hits of rays with a scene by a bounding volume hierarchy (BVH).
 
 #include <microtrace/export.hpp>
+#include <microtrace/frustum.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/primitives.hpp>
@@ -119,6 +120,11 @@ class MICROTRACE_EXPORT Bvh {
   /// same size. Faster than single calls for any order of the rays. For `left` see intersect.
   void occluded(std::span<const Ray> rays, std::span<bool> results,
                 std::span<const PrimitiveId> left = {}) const;
+
+  /// Returns the primitive that all rays of a frustum hit first, if that is certain for the frustum
+  /// as a whole. Much faster than tracing the rays, but often unknown: at silhouettes, and where
+  /// triangles are small. A known result is exact.
+  [[nodiscard]] CommonHit common_hit(const Frustum& frustum) const;
 
   [[nodiscard]] const Primitives& primitives() const;
 

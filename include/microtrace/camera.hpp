@@ -9,6 +9,7 @@
 /// RayGenerator::through_lens.
 
 #include <microtrace/export.hpp>
+#include <microtrace/frustum.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>
 
@@ -185,6 +186,10 @@ class MICROTRACE_EXPORT RayGenerator {
   /// `least_t_min`. All spans must have the same size. Faster than single calls.
   void through(std::span<const double> x, std::span<const double> y, float least_t_min,
                std::span<Ray> rays) const;
+
+  /// Returns a frustum that contains all rays of operator() with x0 <= x <= x1 and y0 <= y <= y1.
+  /// Returns nothing for cameras whose directions are not linear in x and y.
+  [[nodiscard]] std::optional<Frustum> frustum(double x0, double y0, double x1, double y1) const;
 
   /// Returns the pixel coordinates at which a point appears, whether inside the picture or not.
   /// This is the inverse of operator() and ignores the depth range. Returns nothing for points that

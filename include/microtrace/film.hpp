@@ -3,6 +3,7 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/math.hpp>
+#include <microtrace/page_allocator.hpp>
 #include <microtrace/tone_map.hpp>
 
 #include <cstddef>
@@ -39,8 +40,8 @@ class Film {
   explicit Film(ImageSize size, Alpha alpha = Alpha::none)
       : whole(size),
         size_(size),
-        pixels_(std::size_t{size.width} * size.height),
-        alpha_(alpha == Alpha::none ? 0 : pixels_.size()) {}
+        pixels_(std::size_t{size.width} * size.height, Vec3(0)),
+        alpha_(alpha == Alpha::none ? 0 : pixels_.size(), 0.0F) {}
 
   [[nodiscard]] ImageSize size() const { return size_; }
   [[nodiscard]] Vec3& at(std::uint32_t x, std::uint32_t y) { return pixels_[index(x, y)]; }
@@ -68,8 +69,8 @@ class Film {
   }
 
   ImageSize size_;
-  std::vector<Vec3> pixels_;
-  std::vector<float> alpha_;
+  PageVector<Vec3> pixels_;
+  PageVector<float> alpha_;
 };
 
 }  // namespace microtrace

@@ -5,6 +5,7 @@
 #include <microtrace/camera.hpp>
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
+#include <microtrace/frustum.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/scene.hpp>
@@ -96,6 +97,14 @@ class MICROTRACE_EXPORT Integrator {
   virtual void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
                      std::span<Sample> samples) const = 0;
 
+  /// Returns the sample that trace() would return for every ray in the frustum, if it is certain
+  /// that all are equal and this can be found without tracing each ray. Called for rectangles of
+  /// the film before their rays are made, but not for Monte Carlo integrators.
+  [[nodiscard]] virtual std::optional<Sample> common_sample(const World& /*world*/,
+                                                            const Frustum& /*frustum*/) const {
+    return std::nullopt;
+  }
+
   /// Returns true if the samples are arbitrary data instead of radiance. Data is neither filtered
   /// nor composited over the background.
   [[nodiscard]] virtual bool is_data() const { return false; }
@@ -123,6 +132,8 @@ class MICROTRACE_EXPORT FlatIntegrator final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;
+  [[nodiscard]] std::optional<Sample> common_sample(const World& world,
+                                                    const Frustum& frustum) const override;
 };
 
 }  // namespace microtrace

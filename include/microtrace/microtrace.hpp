@@ -21,6 +21,7 @@
 #include <microtrace/film_view.hpp>
 #include <microtrace/fixed_sum.hpp>
 #include <microtrace/framing.hpp>
+#include <microtrace/frustum.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/io.hpp>
@@ -28,6 +29,7 @@
 #include <microtrace/material.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/memory.hpp>
+#include <microtrace/page_allocator.hpp>
 #include <microtrace/path.hpp>
 #include <microtrace/placement.hpp>
 #include <microtrace/prepared_scene.hpp>

@@ -4,12 +4,13 @@
 /// number that is not finite is empty.
 ///
 /// To add a shape, add a struct here and to the variant `Shape`, its exact hit in src/exact, its
-/// filter in src/accel/filters, its boxes in src/accel/build, its ray origins in src/accel/spawn,
-/// its bounds in src/scene/support.hpp, its surface in src/scene/surface_interaction.cpp, its rules
-/// in src/scene/validate/validate.cpp, its reader in src/io/scene_json/shape.cpp, its name in
-/// src/scene/shape_name.hpp, its numbers in src/explain/numbers.cpp, its members in
-/// docs/scene.schema.json and docs/scene-format.md, a scene in scenes, and an oracle test in
-/// tests/oracle.
+/// filter in src/accel/filters, its kernel in src/accel/kernels and src/accel/resolve, its test
+/// against frustums in src/accel/frustum, its boxes in src/accel/build, its ray origins in
+/// src/accel/spawn, its bounds in src/scene/support.hpp, its surface in
+/// src/scene/surface_interaction.cpp, its rules in src/scene/validate/validate.cpp, its reader in
+/// src/io/scene_json/shape.cpp, its name in src/scene/shape_name.hpp, its numbers in
+/// src/explain/numbers.cpp, its members in docs/scene.schema.json and docs/scene-format.md, a scene
+/// in scenes, and an oracle test in tests/oracle.
 
 #include <microtrace/array.hpp>
 #include <microtrace/export.hpp>

@@ -1,9 +1,9 @@
 #include "accel/bvh_impl.hpp"
 #include "accel/bvh_tree.hpp"
+#include "accel/frustum/common_hit.hpp"
 #include "accel/hit_rounding.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
-#include "accel/ray_packet.hpp"
 #include "accel/ray_runs.hpp"
 #include "accel/ray_stream.hpp"
 #include "accel/resolve/hit_resolver.hpp"
@@ -36,12 +36,14 @@ namespace {
 // Tests every primitive, for rays beyond the kernels' limits.
 std::optional<Hit> test_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
-  RayPacket packet(primitives, std::span(&ray, 1));
-  primitives.for_each([&](PrimitiveId id, const auto& shape) {
+  const HitResolver resolver(primitives, ray);
+  const ExactHits exactly(primitives, ray);
+  ClosestHit closest;
+  for (PrimitiveId id = 0; id < primitives.count(); ++id) {
     ++fallback_stages.filters;
-    packet.test(id, shape);
-  });
-  return packet.hit(0);
+    closest.consider(id, resolver.filtered(id), exactly);
+  }
+  return closest.rounded(exactly);
 }
 
 }  // namespace
@@ -104,20 +106,15 @@ bool Bvh::Impl::intersect_packet(std::span<const Ray> rays,
                                  std::span<std::optional<Hit>> hits) const {
   KernelPacket packet;
   if (!fill_packet(rays, *kernels, packet)) return false;
-  if (has_tree) {
-    PacketResolver resolver(primitives, rays);
-    resolver.begin(packet, outside);
-    kernels->closest_of_packet(view(), packet, resolver.fallback());
-    if (tree.instances.empty())
-      round_hits(primitives, *kernels, view(), rays, packet, hits);
-    else
-      round_hits_of_instances(primitives, *kernels, rays, packet, hits);
-  } else {
-    RayPacket tested(primitives, rays);
-    for (const PrimitiveId id : outside)
-      primitives.visit(id, [&](const auto& shape) { tested.test(id, shape); });
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = tested.hit(i);
-  }
+  PacketResolver resolver(primitives, *kernels, rays, packet);
+  for (const PrimitiveId id : outside) resolver.consider_all(id, packet);
+  const TreeView tree_view = view();
+  if (has_tree) kernels->closest_of_packet(tree_view, packet, resolver.fallback());
+  const auto found = hits.first(rays.size());
+  if (tree.instances.empty())
+    round_hits(resolver, *kernels, has_tree ? &tree_view : nullptr, packet, found);
+  else
+    round_hits_of_instances(primitives, *kernels, rays, packet, found);
   return true;
 }
 
@@ -126,6 +123,11 @@ Bvh::Bvh(const Scene& scene, BvhOptions options)
 Bvh::~Bvh() = default;
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
+
+CommonHit Bvh::common_hit(const Frustum& frustum) const {
+  const FloatEnvironment environment;
+  return microtrace::common_hit(impl_->primitives, impl_->tree, frustum);
+}
 
 const Primitives& Bvh::primitives() const {
   return impl_->primitives;

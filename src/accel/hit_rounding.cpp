@@ -1,6 +1,7 @@
 #include "accel/hit_rounding.hpp"
 
 #include "accel/resolve/hit_resolver.hpp"
+#include "accel/resolve/packet_resolver.hpp"
 
 #include <algorithm>
 
@@ -9,9 +10,9 @@ namespace {
 
 // Looks up triangle vertices by primitive id. Keeps the last mesh, because consecutive hits are
 // mostly on the same mesh.
-class Corners {
+class CornerFinder {
  public:
-  explicit Corners(const Primitives& primitives) : primitives_(&primitives) {}
+  explicit CornerFinder(const Primitives& primitives) : primitives_(&primitives) {}
 
   /// Returns false if the primitive is not a mesh triangle.
   bool put(PrimitiveId id, HitBatch& batch, std::size_t i) {
@@ -48,15 +49,16 @@ struct RoundedT {
   const float* t;
 };
 
-// Writes the hits. Values of t that are not certain are computed again by filters or exactly.
-void write_hits(const Primitives& primitives, std::span<const Ray> rays, const std::uint32_t* ids,
-                const RoundedT& rounded, std::span<std::optional<Hit>> hits) {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+// Writes the hits. resolve(i, id) must return the hit of ray i with primitive `id`.
+template <class Resolve>
+void write_hits(const std::uint32_t* ids, const RoundedT& rounded, const Resolve& resolve,
+                std::span<std::optional<Hit>> hits) {
+  for (std::size_t i = 0; i < hits.size(); ++i) {
     const std::uint32_t id = ids[i];
     if ((rounded.certain >> i & 1U) != 0)
       hits[i] = Hit{.id = id, .t = rounded.t[i]};
     else if (id != kNoPrimitive)
-      hits[i] = HitResolver(primitives, rays[i]).hit(id);
+      hits[i] = resolve(i, id);
     else
       hits[i].reset();
   }
@@ -70,14 +72,17 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
   HitBatch batch;
   std::copy_n(found.o, 3, batch.o);
   std::copy_n(found.d, 3, batch.d);
-  Corners corners(primitives);
+  CornerFinder corners(primitives);
   std::uint64_t triangles = 0;  // one bit per ray that hits a mesh triangle
   for (std::size_t i = 0; i < count; ++i) {
     if (found.ids[i] != kNoPrimitive && corners.put(found.ids[i], batch, i))
       triangles |= std::uint64_t{1} << i;
   }
   const std::uint64_t certain = triangles != 0 ? kernels.round_t(batch) & triangles : 0;
-  write_hits(primitives, found.rays, found.ids, {.certain = certain, .t = batch.t}, hits);
+  const auto resolve = [&](std::size_t i, PrimitiveId id) {
+    return HitResolver(primitives, found.rays[i]).hit(id);
+  };
+  write_hits(found.ids, {.certain = certain, .t = batch.t}, resolve, hits.first(count));
 }
 
 void round_hits_of_instances(const Primitives& primitives, const Kernels& kernels,
@@ -93,12 +98,13 @@ void round_hits_of_instances(const Primitives& primitives, const Kernels& kernel
   round_hits(primitives, kernels, found, hits);
 }
 
-void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,
-                std::span<const Ray> rays, const KernelPacket& packet,
-                std::span<std::optional<Hit>> hits) {
+void round_hits(const PacketResolver& resolver, const Kernels& kernels, const TreeView* tree,
+                const KernelPacket& packet, std::span<std::optional<Hit>> hits) {
   alignas(64) float t[kPacketRays];
-  const std::uint64_t certain = kernels.round_t_of_packet(tree, packet, t);
-  write_hits(primitives, rays, packet.best_id, {.certain = certain, .t = t}, hits);
+  const std::uint64_t certain =
+      tree != nullptr ? kernels.round_t_of_packet(*tree, packet, t) : std::uint64_t{0};
+  const auto resolve = [&](std::size_t i, PrimitiveId id) { return resolver.hit(i, id); };
+  write_hits(packet.best_id, {.certain = certain, .t = t}, resolve, hits);
 }
 
 }  // namespace microtrace

@@ -11,6 +11,8 @@
 
 namespace microtrace {
 
+class PacketResolver;
+
 /// Up to kHitBatch rays and the id of the first primitive that each ray hits, or kNoPrimitive for a
 /// miss.
 struct FoundHits {
@@ -30,9 +32,8 @@ void round_hits_of_instances(const Primitives& primitives, const Kernels& kernel
                              std::span<const Ray> rays, const KernelPacket& packet,
                              std::span<std::optional<Hit>> hits);
 
-/// Does the same for the nearest hits of a packet of rays.
-void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,
-                std::span<const Ray> rays, const KernelPacket& packet,
-                std::span<std::optional<Hit>> hits);
+/// Sets hits[i] to the nearest hit of ray i of a packet. `tree` is null if there is none.
+void round_hits(const PacketResolver& resolver, const Kernels& kernels, const TreeView* tree,
+                const KernelPacket& packet, std::span<std::optional<Hit>> hits);
 
 }  // namespace microtrace

@@ -1,7 +1,7 @@
 #pragma once
 /// Divides an array of rays into runs that are traced as packets or as streams.
 
-#include "accel/ray_packet.hpp"
+#include "accel/kernels/kernel.hpp"
 #include "accel/ray_stream.hpp"
 
 #include <microtrace/ray.hpp>

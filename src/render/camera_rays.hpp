@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace microtrace {
@@ -36,6 +37,13 @@ class CameraRays {
   /// Sets rays[i] to the ray through the pixel coordinates (x[i], y[i]).
   void through(std::span<const double> x, std::span<const double> y, std::span<Ray> rays) const {
     camera_.through(x, y, t_min_, rays);
+  }
+
+  /// The rays through the pixel coordinates [x0, x1] x [y0, y1], as in RayGenerator.
+  [[nodiscard]] std::optional<Frustum> frustum(double x0, double y0, double x1, double y1) const {
+    std::optional<Frustum> result = camera_.frustum(x0, y0, x1, y1);
+    if (result) result->greatest_t_min = std::max(result->greatest_t_min, double{t_min_});
+    return result;
   }
 
   /// Sets `rays` to the rays through the centers of the tile's pixels, row by row.

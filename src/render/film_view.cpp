@@ -1,3 +1,4 @@
+#include "base/runs.hpp"
 #include "scene/math/exponential.hpp"
 #include "scene/tone_map.hpp"
 
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -53,6 +55,25 @@ std::vector<bool> occupied(const Scene& scene, const Camera& camera, ImageSize w
   return result;
 }
 
+/// Calls f(first, color, count) for runs of pixels of the same color, without transparent pixels.
+template <class F>
+void for_each_run_of_colors(const Film& film, F&& f) {
+  std::size_t first = 0;
+  for (std::uint32_t y = 0; y < film.size().height; ++y) {
+    if (!film.has_alpha()) {
+      for_each_run(film.row(y), [&](const Vec3& color, std::size_t count) {
+        f(first, color, count);
+        first += count;
+      });
+      continue;
+    }
+    for (std::size_t x = 0; const Vec3& color : film.row(y)) {
+      if (film.alpha_row(y)[x++] != 0) f(first, color, std::size_t{1});
+      ++first;
+    }
+  }
+}
+
 }  // namespace
 
 FilmView view_of(const Film& film, const Scene& scene, const Camera& camera,
@@ -60,30 +81,30 @@ FilmView view_of(const Film& film, const Scene& scene, const Camera& camera,
   const Blackness is_black(film.display);
   const bool shows_all = scene.environment && scene.environment->is_background &&
                          options.integrator != nullptr && options.integrator->is_random();
+  // Pixels may show no surface if they have this color. A black pixel with alpha may be a shadow.
+  const std::optional<Vec3> color_of_nothing = film.has_alpha() ? std::optional(Vec3(0))
+                                               : shows_all      ? std::nullopt
+                                                                : std::optional(scene.background);
   FilmView view;
-  std::size_t lit = 0, black = 0;
-  std::vector<std::size_t> doubtful;  // pixels that may show no surface
-  for (std::uint32_t y = 0; y < film.size().height; ++y) {
-    const std::span<const Vec3> colors = film.row(y);
-    for (std::size_t x = 0; x < colors.size(); ++x) {
-      if (film.has_alpha() && film.alpha_row(y)[x] == 0) continue;
-      const bool may_be_empty = film.has_alpha() ? colors[x] == Vec3(0)  // may be a shadow
-                                                 : !shows_all && colors[x] == scene.background;
-      if (may_be_empty) {
-        doubtful.push_back(std::size_t{y} * colors.size() + x);
-      } else if (is_black(colors[x])) {
-        ++black;
-        view.brightest = std::max(view.brightest, greatest(colors[x]));
-      } else {
-        ++lit;
-      }
+  std::size_t lit = 0, black = 0, doubtful = 0;
+  for_each_run_of_colors(film, [&](std::size_t, const Vec3& color, std::size_t count) {
+    if (color_of_nothing == color) {
+      doubtful += count;
+    } else if (is_black(color)) {
+      black += count;
+      view.brightest = std::max(view.brightest, greatest(color));
+    } else {
+      lit += count;
     }
-  }
+  });
   const bool are_black = film.has_alpha() || is_black(scene.background);
-  if (lit + black == 0 || (are_black && is_most(black + doubtful.size(), lit))) {
-    const std::vector<bool> is_there =
-        doubtful.empty() ? std::vector<bool>() : occupied(scene, camera, film.whole, options);
-    for (const std::size_t pixel : doubtful) (are_black ? black : lit) += is_there[pixel] ? 1 : 0;
+  if (doubtful > 0 && (lit + black == 0 || (are_black && is_most(black + doubtful, lit)))) {
+    const std::vector<bool> is_there = occupied(scene, camera, film.whole, options);
+    for_each_run_of_colors(film, [&](std::size_t first, const Vec3& color, std::size_t count) {
+      if (color_of_nothing != color) return;
+      for (std::size_t i = first; i < first + count; ++i)
+        (are_black ? black : lit) += is_there[i] ? 1 : 0;
+    });
   }
   view.is_empty = lit + black == 0;
   view.is_dark = is_most(black, lit);

@@ -60,6 +60,13 @@ class Surfaces {
     return &entry.color;
   }
 
+  /// The base color at all hits of a primitive, if its surface also has two sides. Null for other
+  /// surfaces.
+  [[nodiscard]] const Vec3* plain_color(PrimitiveId id) const {
+    const Entry& entry = entries_[primitives_.object_index(id)];
+    return entry.kind == Kind::plain ? &entry.color : nullptr;
+  }
+
   /// True if two hits of a ray are the same point of one surface. This happens on an edge or vertex
   /// shared by two triangles of a mesh that both face the ray with the same side.
   [[nodiscard]] bool is_same_point(const Ray& ray, const Hit& a, const Hit& b) const;

@@ -56,17 +56,29 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
   }
 }
 
+std::optional<Sample> TilePainter::common_sample(const PixelRect& block) const {
+  const auto [least_x, greatest_x] = std::ranges::minmax(pattern_, {}, &PixelOffset::x);
+  const auto [least_y, greatest_y] = std::ranges::minmax(pattern_, {}, &PixelOffset::y);
+  const std::optional<Frustum> frustum =
+      ray_.frustum(block.x0 + least_x.x, block.y0 + least_y.y, block.x1 - 1 + greatest_x.x,
+                   block.y1 - 1 + greatest_y.y);
+  return frustum ? integrator_.common_sample(world_, *frustum) : std::nullopt;
+}
+
 void TilePainter::paint_block(const PixelRect& block) const {
-  const std::uint32_t width = block.size().width;
   const auto set = [&](std::size_t pixel, const Sample& sample) {
-    const auto index = static_cast<std::uint32_t>(pixel);
-    set_pixel(film_, block.x0 - window_.x0 + index % width, block.y0 - window_.y0 + index / width,
-              sample.color, sample.alpha, background_);
+    set_pixel(film_, block.x0 - window_.x0 + static_cast<std::uint32_t>(pixel % kTileEdge),
+              block.y0 - window_.y0 + static_cast<std::uint32_t>(pixel / kTileEdge), sample.color,
+              sample.alpha, background_);
   };
   RayBatch<kMaxBatch> batch(integrator_, film_.has_alpha());
-  std::array<Sum, kTilePixels> sums{};
+  std::array<double, kMaxBatch> film_x, film_y;  // of the batch's samples
+  std::array<Sum, kTilePixels> sums;
   const bool is_single = pattern_.size() == 1;
+  if (!is_single) sums.fill({});
   const auto trace = [&] {
+    const std::span<Ray> rays = batch.rays();
+    ray_.through(std::span(film_x).first(rays.size()), std::span(film_y).first(rays.size()), rays);
     const auto [pixels, samples] = batch.trace(world_);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (is_single)
@@ -75,23 +87,33 @@ void TilePainter::paint_block(const PixelRect& block) const {
         sums[pixels[i]].add(samples[i]);
     }
   };
-  std::size_t pixel = 0;
-  for (std::uint32_t y = block.y0; y < block.y1; ++y) {
-    for (std::uint32_t x = block.x0; x < block.x1; ++x, ++pixel) {
-      for (std::uint32_t k = 0; k < pattern_.size(); ++k) {
-        if (batch.is_full()) trace();
-        batch.add(pixel, {.x = x, .y = y, .index = k});
-        batch.rays().back() = ray_(x + pattern_[k].x, y + pattern_[k].y);
-      }
+  const auto for_each_pixel = [&](const auto& visit) {
+    for (std::uint32_t y = block.y0; y < block.y1; ++y)
+      for (std::uint32_t x = block.x0; x < block.x1; ++x)
+        visit(x, y, std::size_t{y - block.y0} * kTileEdge + (x - block.x0));
+  };
+  for_each_pixel([&](std::uint32_t x, std::uint32_t y, std::size_t pixel) {
+    for (std::uint32_t k = 0; k < pattern_.size(); ++k) {
+      if (batch.is_full()) trace();
+      film_x[batch.rays().size()] = x + pattern_[k].x;
+      film_y[batch.rays().size()] = y + pattern_[k].y;
+      batch.add(pixel, {.x = x, .y = y, .index = k});
     }
-  }
+  });
   trace();
   if (is_single) return;
-  for (std::size_t p = 0; p < pixel; ++p)
-    set(p, sums[p].over(static_cast<double>(pattern_.size())));
+  for_each_pixel([&](std::uint32_t, std::uint32_t, std::size_t pixel) {
+    set(pixel, sums[pixel].over(static_cast<double>(pattern_.size())));
+  });
 }
 
 void TilePainter::paint(const PixelRect& tile) const {
+  if (const std::optional<Sample> sample = common_sample(tile)) {
+    for (std::uint32_t y = tile.y0; y < tile.y1; ++y)
+      for (std::uint32_t x = tile.x0; x < tile.x1; ++x)
+        set_pixel(film_, x - window_.x0, y - window_.y0, sample->color, sample->alpha, background_);
+    return;
+  }
   for (std::uint32_t y = tile.y0; y < tile.y1; y += block_height_) {
     for (std::uint32_t x = tile.x0; x < tile.x1; x += block_width_) {
       paint_block({.x0 = x,

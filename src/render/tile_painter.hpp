@@ -8,6 +8,7 @@
 #include <microtrace/film.hpp>
 #include <microtrace/render.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace microtrace {
@@ -23,6 +24,8 @@ class TilePainter {
   void paint(const PixelRect& tile) const;
 
  private:
+  /// Returns the sample that all rays of the block have in common, if that is certain.
+  [[nodiscard]] std::optional<Sample> common_sample(const PixelRect& block) const;
   void paint_block(const PixelRect& block) const;
 
   const World& world_;

@@ -216,6 +216,25 @@ void RayGenerator::through(std::span<const double> x, std::span<const double> y,
   }
 }
 
+std::optional<Frustum> RayGenerator::frustum(double x0, double y0, double x1, double y1) const {
+  const FloatEnvironment environment;
+  if (kind_ != Kind::perspective) return std::nullopt;
+  constexpr double kSlack = 0x1p-20;
+  Frustum result{.o = Vec3(position_),
+                 .middle = toward_pixel<1>(corner_, right_, down_, (x0 + x1) / 2, (y0 + y1) / 2),
+                 .half_right = right_ * ((x1 - x0) / 2),
+                 .half_down = down_ * ((y1 - y0) / 2)};
+  const double length = glm::length(result.middle),
+               radius = glm::length(result.half_right) + glm::length(result.half_down);
+  // Each sum of three terms and its terms have at most four roundings.
+  result.error = 0x1p-50 * (glm::length(corner_) + glm::length(right_) * std::max(-x0, x1) +
+                            glm::length(down_) * std::max(-y0, y1) + length + radius);
+  if (!(result.error < 0x1p-30 * (length - radius))) return std::nullopt;
+  result.greatest_t_min = depth_.near * (length + radius) * (1 + kSlack);
+  result.least_t_max = depth_.far * (length - radius) * (1 - kSlack);
+  return result;
+}
+
 std::optional<DVec2> RayGenerator::project(const DVec3& point) const {
   const FloatEnvironment environment;
   const DVec3 v = point - position_;

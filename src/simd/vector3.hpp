@@ -126,6 +126,19 @@ inline void operator*=(Vector3<F>& a, const Operand& b) {
   a = a * b;
 }
 
+/// Returns the magnitudes of the components.
+template <class V>
+inline V magnitudes(const V& v) {
+  return {magnitude(v.x), magnitude(v.y), magnitude(v.z)};
+}
+
+/// Returns the same vector in all lanes.
+template <int N>
+inline Doubles3<N> all_lanes(const DVec3& v) {
+  const Double<N> zero{};
+  return {v.x - zero, v.y - zero, v.z - zero};  // v + 0 would change -0
+}
+
 template <class Mask, class F>
 inline Vector3<F> select3(const Mask& mask, const Vector3<F>& a, const Vector3<F>& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};

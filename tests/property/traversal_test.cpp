@@ -3,7 +3,8 @@
 // scales the number of rays.
 
 #include "accel/kernels/dispatch.hpp"
-#include "accel/ray_packet.hpp"
+#include "accel/resolve/closest_hit.hpp"
+#include "accel/resolve/hit_resolver.hpp"
 #include "exact/intersect.hpp"
 #include "support/cases/adversarial_scenes.hpp"
 #include "support/effort.hpp"
@@ -47,9 +48,12 @@ std::optional<Hit> hit_by_definition(const Primitives& primitives, const Ray& ra
 // exact arithmetic. Exact arithmetic decides uncertain cases.
 std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
-  RayPacket bundle(primitives, std::span(&ray, 1));
-  primitives.for_each([&](PrimitiveId id, const auto& shape) { bundle.test(id, shape); });
-  return bundle.hit(0);
+  const HitResolver resolver(primitives, ray);
+  const ExactHits exactly(primitives, ray);
+  ClosestHit closest;
+  for (PrimitiveId id = 0; id < primitives.count(); ++id)
+    closest.consider(id, resolver.filtered(id), exactly);
+  return closest.rounded(exactly);
 }
 
 ::testing::AssertionResult same(const std::optional<Hit>& a, const std::optional<Hit>& b) {

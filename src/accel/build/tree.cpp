@@ -32,19 +32,14 @@ void plan(build::BinaryTree& binary, build::WorkerPool& pool) {
   plan_node(binary.root);
 }
 
-/// Beside other primitives, the kernels need at least this number of triangles to pay off.
-constexpr std::ptrdiff_t kWorthKernels = 4;
-
 /// Takes primitives that are tested faster one by one out of a scene with few primitives.
 void take_out_few(build::References& references) {
   using namespace build;
   const auto begin = references.bounded.begin(), end = references.bounded.end();
   const auto others = std::stable_partition(
       begin, end, [](const Reference& r) { return r.weight() == kTriangleWeight; });
-  const bool is_mixed = others != end || !references.unbounded.empty();
-  const auto first = is_mixed && others - begin < kWorthKernels ? begin : others;
-  for (auto taken = first; taken != end; ++taken) references.unbounded.push_back(taken->id());
-  references.bounded.erase(first, end);
+  for (auto taken = others; taken != end; ++taken) references.unbounded.push_back(taken->id());
+  references.bounded.erase(others, end);
 }
 
 /// Reserves memory for the triangles of placed meshes that are not instances.

@@ -2,10 +2,10 @@
 /// The bounding volume hierarchy over a scene's primitives, with up to eight children per node,
 /// built by the surface area heuristic.
 
-#include "accel/build/page_allocator.hpp"
 #include "accel/build/references/duplicates.hpp"
 #include "accel/layout.hpp"
 
+#include <microtrace/page_allocator.hpp>
 #include <microtrace/primitives.hpp>
 
 #include <cstdint>

@@ -7,20 +7,30 @@
 
 namespace microtrace {
 
-[[nodiscard]] inline SphereFilter seen_from(const Vec3& o, const Sphere& s) {
-  return {s, o};
+/// The filter of a shape for single rays.
+template <class Seen>
+struct ShapeFilter {
+  Seen shape;
+
+  [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
+    return result_of(filter(shape, d, range));
+  }
+};
+
+[[nodiscard]] inline ShapeFilter<SeenSphere> seen_from(const Vec3& o, const Sphere& s) {
+  return {sphere_seen_from(o, s)};
 }
-[[nodiscard]] inline PlaneFilter seen_from(const Vec3& o, const Plane& p) {
-  return {p, o};
+[[nodiscard]] inline ShapeFilter<SeenPlane> seen_from(const Vec3& o, const Plane& p) {
+  return {plane_seen_from(o, p.point, p.normal)};
 }
-[[nodiscard]] inline DiscFilter seen_from(const Vec3& o, const Disc& d) {
-  return {d, o};
+[[nodiscard]] inline ShapeFilter<SeenDisc> seen_from(const Vec3& o, const Disc& d) {
+  return {disc_seen_from(o, d)};
 }
 [[nodiscard]] inline TriangleFilter seen_from(const Vec3& o, const Triangle& t) {
   return {t, o};
 }
-[[nodiscard]] inline QuadricFilter seen_from(const Vec3& o, const Quadric& q) {
-  return {q, o};
+[[nodiscard]] inline ShapeFilter<SeenQuadric> seen_from(const Vec3& o, const Quadric& q) {
+  return {quadric_seen_from(o, q)};
 }
 
 /// Also false for negative radii, because such spheres are empty but the filter squares the radius.

@@ -47,7 +47,7 @@ class TrianglePlaneFilter {
   }
 
   [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
-    return quotient_result(height_, normal_.along(d), range);
+    return result_of(quotient_result(height_, normal_.along(d), range));
   }
 
  private:
@@ -69,10 +69,10 @@ class TriangleFilter {
     bool inside_positive = true, inside_negative = true, any_positive = false, any_negative = false;
     for (const CrossProduct& edge : edges_) {
       const Approximate w = edge.along(d);
-      any_positive |= w.is_positive();
-      any_negative |= w.is_negative();
-      inside_positive &= w.is_positive();
-      inside_negative &= w.is_negative();
+      any_positive |= w.is_positive() != 0;
+      any_negative |= w.is_negative() != 0;
+      inside_positive &= w.is_positive() != 0;
+      inside_negative &= w.is_negative() != 0;
     }
     if (any_positive && any_negative) return {.certainty = Certainty::miss};
     FilterResult crossing = plane_(d, range);
@@ -96,8 +96,8 @@ class TriangleFilter {
       for (int i = 0; i < 3; ++i) {
         const Approximate x{.value = side.value[i],
                             .error = gamma(3) * side.permanent[i] + kUnderflow};
-        all_positive[static_cast<std::size_t>(i)] &= x.is_positive();
-        all_negative[static_cast<std::size_t>(i)] &= x.is_negative();
+        all_positive[static_cast<std::size_t>(i)] &= x.is_positive() != 0;
+        all_negative[static_cast<std::size_t>(i)] &= x.is_negative() != 0;
       }
     }
     return std::ranges::any_of(all_positive, std::identity{}) ||

@@ -1,21 +1,24 @@
 #include "accel/kernels/packet/packet.hpp"
 #include "accel/kernels/packet/packet_rays.hpp"
+#include "accel/kernels/packet/packet_shapes.hpp"
 #include "accel/kernels/round_t.hpp"
 #include "accel/kernels/stream.hpp"
 #include "accel/kernels/stream_rays.hpp"
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {
-const Kernels kAvx512Kernels{"avx512",
-                             closest<8>,
-                             any<8>,
-                             fill_packet<16>,
-                             closest_of_packet<16>,
-                             prepare_stream<16>,
-                             closest_of_stream<8, 16>,
-                             any_of_stream<8, 16>,
-                             round_t<8>,
-                             round_t_of_packet<8>,
-                             touching<8, 16>,
-                             edge_tests};
+const Kernels kAvx512Kernels{
+    "avx512",
+    {consider_shape<8>, consider_shape<8>, consider_shape<8>, consider_shape<8>},
+    closest<8>,
+    any<8>,
+    fill_packet<16>,
+    closest_of_packet<16>,
+    prepare_stream<16>,
+    closest_of_stream<8, 16>,
+    any_of_stream<8, 16>,
+    round_t<8>,
+    round_t_of_packet<8>,
+    touching<8, 16>,
+    edge_tests};
 }

@@ -3,6 +3,7 @@
 /// functions. This header may contain only plain data, because kernels for several instruction sets
 /// include it.
 
+#include "accel/filters/seen_shapes.hpp"
 #include "accel/layout.hpp"
 
 #include <microtrace/hit.hpp>
@@ -176,9 +177,30 @@ struct BoxQuery {
 inline constexpr std::uint32_t kOtherSlot = 1U << 31U, kIdSlot = ~0U;
 inline constexpr int kBoxQueries = 16;
 
+/// Bounds of the exact t of the rays of a packet at hits of shapes that float64 filters have found.
+struct alignas(64) ShapeBounds {
+  double lo[kPacketRays], hi[kPacketRays];
+  std::uint32_t id[kPacketRays];  ///< the shape that the bounds belong to, or kNoPrimitive
+  float t_max[kPacketRays];       ///< of the rays
+};
+
+/// Functions that consider primitive `id` for all rays of a packet, where the shape
+/// is given relative to the rays' origin. They return the rays for which the caller must consider
+/// it, one bit each.
+struct ShapeKernels {
+  template <class Seen>
+  using Consider = std::uint64_t(const Seen& shape, std::uint32_t id, KernelPacket& packet,
+                                 ShapeBounds& found);
+  Consider<SeenPlane>* plane;
+  Consider<SeenDisc>* disc;
+  Consider<SeenSphere>* sphere;
+  Consider<SeenQuadric>* quadric;
+};
+
 /// The functions of one instruction set.
 struct Kernels {
   const char* name;
+  ShapeKernels shapes;
   /// Sets `best` to the nearest hit in the tree, if it is nearer than `best`.
   void (*closest)(const TreeView& tree, KernelRay ray, const Fallback& slow, ClosestSoFar& best);
   /// Returns true if there is any hit within the ray's interval.

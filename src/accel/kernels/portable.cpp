@@ -1,21 +1,24 @@
 #include "accel/kernels/packet/packet.hpp"
 #include "accel/kernels/packet/packet_rays.hpp"
+#include "accel/kernels/packet/packet_shapes.hpp"
 #include "accel/kernels/round_t.hpp"
 #include "accel/kernels/stream.hpp"
 #include "accel/kernels/stream_rays.hpp"
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {
-const Kernels kPortableKernels{"portable",
-                               closest<4>,
-                               any<4>,
-                               fill_packet<4>,
-                               closest_of_packet<4>,
-                               prepare_stream<4>,
-                               closest_of_stream<4, 4>,
-                               any_of_stream<4, 4>,
-                               round_t<4>,
-                               round_t_of_packet<4>,
-                               touching<4, 4>,
-                               edge_tests};
+const Kernels kPortableKernels{
+    "portable",
+    {consider_shape<2>, consider_shape<2>, consider_shape<2>, consider_shape<2>},
+    closest<4>,
+    any<4>,
+    fill_packet<4>,
+    closest_of_packet<4>,
+    prepare_stream<4>,
+    closest_of_stream<4, 4>,
+    any_of_stream<4, 4>,
+    round_t<4>,
+    round_t_of_packet<4>,
+    touching<4, 4>,
+    edge_tests};
 }

@@ -1,5 +1,11 @@
 #include "accel/resolve/packet_resolver.hpp"
 
+#include "accel/filters/shape_filter.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <type_traits>
+
 namespace microtrace {
 namespace {
 
@@ -10,34 +16,47 @@ void put(KernelPacket& packet, std::size_t i, const ClosestSoFar& best) {
   packet.best_id[i] = best.id;
 }
 
+auto kernel_for(const ShapeKernels& kernels, const Plane&) {
+  return kernels.plane;
+}
+auto kernel_for(const ShapeKernels& kernels, const Disc&) {
+  return kernels.disc;
+}
+auto kernel_for(const ShapeKernels& kernels, const Sphere&) {
+  return kernels.sphere;
+}
+auto kernel_for(const ShapeKernels& kernels, const Quadric&) {
+  return kernels.quadric;
+}
+
 }  // namespace
 
-RayPacket& PacketResolver::rays_packet() {
-  if (!packet_) packet_.emplace(*primitives_, rays_);
-  return *packet_;
+PacketResolver::PacketResolver(const Primitives& primitives, const Kernels& kernels,
+                               std::span<const Ray> rays, const KernelPacket& packet)
+    : primitives_(&primitives), kernels_(&kernels.shapes), rays_(rays) {
+  std::ranges::fill(bounds_.id, kNoPrimitive);
+  std::ranges::copy(packet.best_hi, bounds_.t_max);
 }
 
-void PacketResolver::begin(KernelPacket& packet, std::span<const PrimitiveId> ids) {
-  if (ids.empty()) return;
-  for (const PrimitiveId id : ids)
-    primitives_->visit(id, [&](const auto& shape) { rays_packet().test(id, shape); });
-  for (std::size_t i = 0; i < rays_.size(); ++i) put(packet, i, rays_packet().best(i));
-}
-
-void PacketResolver::consider_all(std::uint32_t id, KernelPacket& packet) {
-  const auto consider = [&](std::size_t i, const FilterResult& filtered) {
-    if (filtered.certainty == Certainty::miss || filtered.lo > packet.best_hi[i] ||
-        packet.best_id[i] == id)
-      return;
+void PacketResolver::consider_all(PrimitiveId id, KernelPacket& packet) {
+  const auto consider_one = [&](std::size_t i) {
     ClosestSoFar best{.lo = packet.best_lo[i], .hi = packet.best_hi[i], .id = packet.best_id[i]};
-    if (filtered.certainty == Certainty::hit && filtered.hi < best.lo)
-      best = outwards(filtered.lo, filtered.hi, id);
-    else
-      HitResolver(*primitives_, rays_[i]).consider(id, best);
+    HitResolver(*primitives_, rays_[i]).consider(id, best);
     put(packet, i, best);
   };
-  primitives_->visit(id,
-                     [&](const auto& shape) { rays_packet().for_each_result(shape, consider); });
+  primitives_->visit(id, [&]<class AnyShape>(const AnyShape& shape) {
+    if constexpr (!std::is_same_v<AnyShape, Triangle>) {
+      // The packet's rays are within narrower limits than those of the filters.
+      if (is_filterable(shape)) {
+        const auto seen = seen_from(rays_[0].o, shape).shape;
+        std::uint64_t open = kernel_for(*kernels_, shape)(seen, id, packet, bounds_);
+        for (; open != 0; open &= open - 1)
+          consider_one(static_cast<std::size_t>(std::countr_zero(open)));
+        return;
+      }
+    }
+    for (std::size_t i = 0; i < rays_.size(); ++i) consider_one(i);
+  });
 }
 
 PacketFallback PacketResolver::fallback() {
@@ -52,6 +71,12 @@ PacketFallback PacketResolver::fallback() {
               [](void* context, std::uint32_t id, KernelPacket& packet) {
                 static_cast<PacketResolver*>(context)->consider_all(id, packet);
               }};
+}
+
+Hit PacketResolver::hit(std::size_t i, PrimitiveId id) const {
+  const auto below = static_cast<float>(bounds_.lo[i]), above = static_cast<float>(bounds_.hi[i]);
+  if (bounds_.id[i] == id && below == above) return {.id = id, .t = below + 0.0F};  // not -0
+  return HitResolver(*primitives_, rays_[i]).hit(id);
 }
 
 }  // namespace microtrace

@@ -3,33 +3,34 @@
 /// origin.
 
 #include "accel/kernels/kernel.hpp"
-#include "accel/ray_packet.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 
-#include <optional>
 #include <span>
 
 namespace microtrace {
 
 class PacketResolver {
  public:
-  /// The rays must have a common origin. Both arguments must outlive this object.
-  PacketResolver(const Primitives& primitives, std::span<const Ray> rays)
-      : primitives_(&primitives), rays_(rays) {}
+  /// The rays must be those of the packet, which must not have any hits yet. All arguments must
+  /// outlive this object.
+  PacketResolver(const Primitives& primitives, const Kernels& kernels, std::span<const Ray> rays,
+                 const KernelPacket& packet);
 
-  /// Initializes the packet's nearest hits by testing these primitives.
-  void begin(KernelPacket& packet, std::span<const PrimitiveId> ids);
+  /// Considers primitive `id` for all rays.
+  void consider_all(PrimitiveId id, KernelPacket& packet);
 
   /// Returns callbacks for kernels. This object must outlive the result.
   [[nodiscard]] PacketFallback fallback();
 
- private:
-  void consider_all(std::uint32_t id, KernelPacket& packet);
-  RayPacket& rays_packet();
+  /// Returns the hit of ray i with primitive `id`, which must be its nearest one, with t rounded
+  /// once.
+  [[nodiscard]] Hit hit(std::size_t i, PrimitiveId id) const;
 
+ private:
   const Primitives* primitives_;
+  const ShapeKernels* kernels_;
   std::span<const Ray> rays_;
-  std::optional<RayPacket> packet_;  // created on first use; most packets meet only triangles
+  ShapeBounds bounds_;
 };
 
 }  // namespace microtrace

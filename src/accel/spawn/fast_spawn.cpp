@@ -37,7 +37,7 @@ FastSpawn::FastSpawn(const Quadric&, const Ray&) {}
 FastSpawn::FastSpawn(const Sphere& s, const Ray& ray) {
   if (!microtrace::is_filterable(s) || !is_filterable(ray)) return;
   const FilterResult t =
-      SphereFilter(s, ray.o)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
+      seen_from(ray.o, s)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
   if (t.certainty != Certainty::hit) return;
   const PointOnRay x(ray, {t.lo, t.hi});
   p_ = rounded_point(x);
@@ -75,8 +75,8 @@ void FastSpawn::set_flat(const Flat& flat, const Ray& ray) {
   const Approximate height{
       .value = glm::dot(from_a, flat.normal.value),
       .error = gamma(9) * glm::dot(glm::abs(from_a), flat.normal.permanent) + kUnderflow};
-  const FilterResult t = quotient_result(height, flat.normal.along(DVec3(ray.d)),
-                                         {.t_min = ray.t_min, .t_max = ray.t_max});
+  const FilterResult t = result_of(quotient_result(height, flat.normal.along(DVec3(ray.d)),
+                                                   {.t_min = ray.t_min, .t_max = ray.t_max}));
   if (t.certainty == Certainty::unsure) return;
   p_ = rounded_point({ray, {t.lo, t.hi}}, flat.a, flat.normal);
   if (!p_) return;

@@ -37,4 +37,14 @@ void FlatIntegrator::trace(const World& world, std::span<const Ray> rays,
   }
 }
 
+std::optional<Sample> FlatIntegrator::common_sample(const World& world,
+                                                    const Frustum& frustum) const {
+  const CommonHit hit = world.bvh.common_hit(frustum);
+  if (!hit.is_known) return std::nullopt;
+  if (!hit.id) return Sample{};
+  const Vec3* const color = world.surfaces.plain_color(*hit.id);
+  if (color == nullptr) return std::nullopt;
+  return Sample{.color = *color, .alpha = 1};
+}
+
 }  // namespace microtrace

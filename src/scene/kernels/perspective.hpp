@@ -26,12 +26,6 @@ inline LaneRays<N> rays_toward(const Doubles3<N>& toward, double near, double fa
           to_single<N>(far * length)};
 }
 
-template <int N>
-inline Doubles3<N> all_lanes(const DVec3& v) {
-  const Double<N> zero{};
-  return {v.x - zero, v.y - zero, v.z - zero};  // v + 0 would change -0
-}
-
 /// The point at depth 1 that appears at pixel coordinates (x, y).
 template <int N>
 inline Doubles3<N> toward_pixel(const Doubles3<N>& corner, const Doubles3<N>& right,

@@ -82,8 +82,8 @@ TEST(Bounds, Quotient) {
   constexpr std::array<double, 3> v = {0x1.000009dda76bdp+0, 0x1.00000482fed74p+0,
                                        0x1.ffe24557bba92p-53};
   const exact::Dyadic n(v[0]), d(v[1]), error(v[2]);
-  const FilterResult filtered =
-      quotient_result({.value = v[0], .error = v[2]}, {.value = v[1], .error = 0}, kEverywhere);
+  const FilterResult filtered = result_of(
+      quotient_result({.value = v[0], .error = v[2]}, {.value = v[1], .error = 0}, kEverywhere));
   expect_holds(filtered, exact::rational(n - error, d));
   expect_holds(filtered, exact::rational(n + error, d));
 }
@@ -91,18 +91,18 @@ TEST(Bounds, Quotient) {
 TEST(Bounds, QuotientOfErrors) {
   // The extreme quotients are (4 + 1) / (8 - 1) and (4 - 1) / (8 + 1).
   const FilterResult filtered =
-      quotient_result({.value = 4, .error = 1}, {.value = 8, .error = 1}, kEverywhere);
+      result_of(quotient_result({.value = 4, .error = 1}, {.value = 8, .error = 1}, kEverywhere));
   expect_holds(filtered, exact::rational(exact::Dyadic(5.0F), exact::Dyadic(7.0F)));
   expect_holds(filtered, exact::rational(exact::Dyadic(3.0F), exact::Dyadic(9.0F)));
 }
 
 TEST(Bounds, SquareRoot) {
-  const Approximate rounded = square_root({.value = 0x1.0000000059311p+0, .error = 0});
+  const Approximate rounded = square_root<1>({.value = 0x1.0000000059311p+0, .error = 0});
   const exact::Dyadic least(rounded.value - rounded.error), most(rounded.value + rounded.error);
   EXPECT_LE(compare(least * least, exact::Dyadic(0x1.0000000059311p+0)), 0);
   EXPECT_GE(compare(most * most, exact::Dyadic(0x1.0000000059311p+0)), 0);
   // The bounds must contain the square root of 1 - 1/4.
-  const Approximate root = square_root({.value = 1, .error = 0.25});
+  const Approximate root = square_root<1>({.value = 1, .error = 0.25});
   const exact::Dyadic below(root.value - root.error);
   EXPECT_LE(compare(below * below, exact::Dyadic(0.75)), 0);
 }
@@ -113,8 +113,8 @@ TEST(Bounds, FirstRoot) {
                                        0x1.120fea3088868p-41, 0x1.f9dad477ac838p-55};
   const exact::Dyadic a(v[0]), numerator = -exact::Dyadic(v[1]) - exact::Dyadic(v[2]), error(v[3]);
   const FilterResult filtered =
-      first_root_result({.value = v[0], .error = 0}, {.value = v[1], .error = v[3]},
-                        {.value = v[2], .error = 0}, kEverywhere);
+      result_of(first_root_result<1>({.value = v[0], .error = 0}, {.value = v[1], .error = v[3]},
+                                     {.value = v[2], .error = 0}, kEverywhere));
   expect_holds(filtered, exact::rational(numerator - error, a));
   expect_holds(filtered, exact::rational(numerator + error, a));
 }
@@ -143,8 +143,8 @@ TEST(Bounds, Plane) {
        -0x1.fe239ap-55F, -0x1.17e48ep-51F},
   }};
   for (const auto& v : cases) {  // point, normal, o, d
-    const PlaneFilter filter(vec3(v, 0), vec3(v, 3), vec3(v, 6));
-    expect_holds(filter(DVec3(vec3(v, 9)), kEverywhere),
+    const SeenPlane plane = plane_seen_from(vec3(v, 6), vec3(v, 0), vec3(v, 3));
+    expect_holds(result_of(filter(plane, DVec3(vec3(v, 9)), kEverywhere)),
                  exact::rational(dot(vector(v, 3), vector(v, 0) - vector(v, 6)),
                                  dot(vector(v, 3), vector(v, 9))));
   }

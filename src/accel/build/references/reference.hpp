@@ -1,7 +1,7 @@
 #pragma once
 #include "accel/build/float4.hpp"
-#include "accel/build/page_allocator.hpp"
 
+#include <microtrace/page_allocator.hpp>
 #include <microtrace/primitives.hpp>
 
 #include <bit>

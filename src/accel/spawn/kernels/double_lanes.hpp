@@ -71,12 +71,6 @@ struct CrossProducts {
   }
 };
 
-/// Returns the lanes in which a mask is set.
-template <int N>
-inline Lanes true_double_lanes(const DoubleMask<N>& mask) {
-  return less<N>(__builtin_convertvector(mask, Float<N>), Float<N>{});
-}
-
 /// Returns the lanes whose components are within the filters' limit.
 template <int N>
 inline DoubleMask<N> filterable(const Doubles3<N>& x) {

@@ -1,9 +1,12 @@
 #include "io/image/encode/eight_bits.hpp"
 
+#include "base/runs.hpp"
 #include "scene/math/exponential.hpp"
 #include "scene/math/srgb.hpp"
 #include "scene/tone_map.hpp"
 
+#include <algorithm>
+#include <array>
 #include <span>
 
 namespace microtrace::io {
@@ -17,16 +20,31 @@ std::uint8_t encode_linear(float v) {
   return v >= 1 ? 255 : static_cast<std::uint8_t>(v * 255 + 0.5F);
 }
 
+/// Stores a pixel `count` times; returns the end.
+std::uint8_t* repeat(const std::array<std::uint8_t, 3>& code, std::size_t count,
+                     std::uint8_t* out) {
+  constexpr std::size_t kPixels = 16;
+  if (count >= kPixels) {
+    std::array<std::uint8_t, 3 * kPixels> pixels;
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = code[i % 3];
+    for (; count >= kPixels; count -= kPixels) out = std::ranges::copy(pixels, out).out;
+  }
+  for (; count > 0; --count) out = std::ranges::copy(code, out).out;
+  return out;
+}
+
 /// Encodes a row. shown(color) must return the color that encode(color, channel) expects.
 template <class Show, class Encode>
 void encode_all(const Film& film, std::uint32_t y, std::uint8_t* out, Show&& shown,
                 Encode&& encode) {
   const std::span<const Vec3> colors = film.row(y);
   if (!film.has_alpha()) {
-    for (const Vec3& pixel : colors) {
+    // Neighboring pixels of pictures without lighting often have the same color.
+    for_each_run(colors, [&](const Vec3& pixel, std::size_t count) {
       const Vec3 color = shown(pixel);
-      for (glm::length_t i = 0; i < 3; ++i) *out++ = encode(color, i);
-    }
+      const std::array<std::uint8_t, 3> code{encode(color, 0), encode(color, 1), encode(color, 2)};
+      out = repeat(code, count, out);
+    });
     return;
   }
   const std::span<const float> alphas = film.alpha_row(y);

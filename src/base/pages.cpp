@@ -1,0 +1,35 @@
+#include <microtrace/page_allocator.hpp>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace microtrace {
+namespace {
+
+constexpr std::size_t kHugePage = std::size_t{1} << 21U;
+
+std::align_val_t alignment_of(std::size_t bytes) {
+  return std::align_val_t{bytes >= kHugePage ? kHugePage : std::size_t{64}};
+}
+
+}  // namespace
+
+void* allocate_pages(std::size_t bytes) {
+  if (bytes < kHugePage) return ::operator new(bytes, alignment_of(bytes));
+  // A last page that the array fills only in part is a huge page too if it is allocated whole.
+  const std::size_t last = bytes % kHugePage,
+                    whole = last == 0 ? bytes : bytes + (kHugePage - last);
+  if (whole < bytes) throw std::bad_alloc();
+  void* const p = ::operator new(whole, alignment_of(whole));
+#ifdef __linux__
+  madvise(p, whole, MADV_HUGEPAGE);
+#endif
+  return p;
+}
+
+void release_pages(void* p, std::size_t bytes) noexcept {
+  ::operator delete(p, alignment_of(bytes));
+}
+
+}  // namespace microtrace
