@@ -35,11 +35,14 @@ DVec3 random_point(std::uint64_t seed, std::uint64_t counter) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-double extent(const Mesh& mesh) {
+double extent(const Scene& scene) {
   Vec3 lo{std::numeric_limits<float>::infinity()}, hi = -lo;
-  for (const Vec3& p : mesh.positions) {
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
+  for (const Object& object : scene.objects) {
+    const auto& mesh = std::get<Mesh>(object.shape);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      lo = glm::min(lo, mesh.position(i));
+      hi = glm::max(hi, mesh.position(i));
+    }
   }
   return glm::length(DVec3(hi) - DVec3(lo));
 }
@@ -57,14 +60,14 @@ std::vector<Ray> primary_rays(const Camera& camera, ImageSize size) {
   return rays;
 }
 
-std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double extent, float t_max,
-                             std::uint64_t seed) {
+std::vector<Ray> cosine_rays(const Primitives& primitives, const Traced& traced, double extent,
+                             float t_max, std::uint64_t seed) {
   std::vector<Ray> rays;
   rays.reserve(traced.rays.size());
   for (std::size_t i = 0; i < traced.rays.size(); ++i) {
     if (!traced.hits[i]) continue;
     const Ray& ray = traced.rays[i];
-    const Triangle triangle = triangle_of(mesh, traced.hits[i]->id);
+    const Triangle triangle = *primitives.triangle(traced.hits[i]->id);
     const DVec3 a(triangle.a), d(ray.d);
     DVec3 n = glm::cross(DVec3(triangle.b) - a, DVec3(triangle.c) - a);
     if (n == DVec3(0)) continue;

@@ -4,8 +4,9 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/hit.hpp>
+#include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
-#include <microtrace/shape.hpp>
+#include <microtrace/scene.hpp>
 
 #include <optional>
 #include <span>
@@ -27,8 +28,8 @@ struct Traced {
 /// and counter.
 [[nodiscard]] DVec3 random_point(std::uint64_t seed, std::uint64_t counter);
 
-/// Returns the length of the diagonal of the mesh's bounding box, in world units.
-[[nodiscard]] double extent(const Mesh& mesh);
+/// Returns the length of the diagonal of the bounding box of a scene's meshes, in world units.
+[[nodiscard]] double extent(const Scene& scene);
 
 /// Returns one ray through the center of each pixel, tile by tile. Width and height are multiples
 /// of kTileEdge.
@@ -37,10 +38,9 @@ struct Traced {
 /// Returns one ray for each hit, which starts at the hit point, in the order of the hits.
 /// Directions are cosine-distributed about the geometric normal on the side of the incoming ray.
 /// Origins are 1e-5 times the extent above the surface, so that rounding in either program never
-/// puts an origin on the wrong side. Hit ids must be triangle indices of the mesh. Triangles
-/// without area emit no rays.
-[[nodiscard]] std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double extent,
-                                           float t_max, std::uint64_t seed);
+/// puts an origin on the wrong side. Triangles without area emit no rays.
+[[nodiscard]] std::vector<Ray> cosine_rays(const Primitives& primitives, const Traced& traced,
+                                           double extent, float t_max, std::uint64_t seed);
 
 /// Shuffles the rays by a fixed permutation, so that neighboring rays are incoherent.
 void shuffle(std::span<Ray> rays, std::uint64_t seed);

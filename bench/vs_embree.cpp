@@ -19,7 +19,8 @@ using namespace microtrace;
 using namespace microtrace::bench;
 
 constexpr const char* kUsage =
-    "usage: bench_vs_embree [--scenes sphere,hall,terrain] [--scaling] [--threads N] [--runs N]\n"
+    "usage: bench_vs_embree [--scenes sphere,hall,terrain,field] [--scaling] [--threads N] [--runs "
+    "N]\n"
     "                       [--quick] [--output FILE.json] [MESH.glb ...]\n"
     "--scaling  the displaced sphere at 10^4 to 10^7 triangles instead of the scenes\n"
     "--runs     of each program, in turn; at least 1 (7)\n"

@@ -33,13 +33,13 @@ struct Choice {
 
 // Robust scenes need only one quality: high quality differs from medium by spatial splits, which
 // Embree uses only in non-robust scenes.
-std::vector<Peer> make_peers(const Mesh& mesh, unsigned threads) {
+std::vector<Peer> make_peers(const Scene& scene, unsigned threads) {
   std::vector<Peer> peers;
   const auto add = [&](const std::string& name, PeerOptions options) {
     options.threads = threads;
     peers.push_back({.name = name,
                      .robust = options.robust,
-                     .scene = std::make_unique<PeerScene>(mesh, options)});
+                     .scene = std::make_unique<PeerScene>(scene, options)});
     peers.back().scene->commit();
   };
   const auto add_all = [&](const std::string& name, const std::string& isa) {
@@ -47,7 +47,7 @@ std::vector<Peer> make_peers(const Mesh& mesh, unsigned threads) {
     add(name + " medium", {.isa = isa, .quality = RTC_BUILD_QUALITY_MEDIUM});
     add(name, {.isa = isa, .robust = true});
   };
-  const bool avx512 = PeerScene(mesh, {}).is_16_wide();
+  const bool avx512 = PeerScene(scene, {}).is_16_wide();
   add_all(avx512 ? "avx512" : "native", "");
   if (avx512) add_all("avx2", "avx2");
   return peers;
@@ -79,12 +79,12 @@ Choice best_choice(const std::vector<Peer>& peers, bool robust, Question& questi
 
 BuildRow compare_builds(const BenchScene& scene, const CompareOptions& options,
                         std::optional<Bvh>& bvh) {
-  const Mesh& mesh = scene.mesh();
-  const auto triangles = static_cast<double>(mesh.triangles.size());
-  BuildRow row{.scene = scene.name, .triangles = mesh.triangles.size(), .threads = options.threads};
+  const std::size_t count = Primitives(scene.scene).count();
+  const auto triangles = static_cast<double>(count);
+  BuildRow row{.scene = scene.name, .triangles = count, .threads = options.threads};
   std::vector<double> ours, high, medium;
   const auto build_embree = [&](RTCBuildQuality quality, std::vector<double>& times) {
-    PeerScene peer(mesh, {.quality = quality, .threads = options.threads});
+    PeerScene peer(scene.scene, {.quality = quality, .threads = options.threads});
     const auto before = static_cast<double>(peer.bytes());
     times.push_back(seconds(options.threads, [&] { peer.commit(); }));
     return (static_cast<double>(peer.bytes()) - before) / triangles;
@@ -153,8 +153,7 @@ SceneRows compare(const BenchScene& scene, const CompareOptions& options) {
   SceneRows rows;
   std::optional<Bvh> bvh;
   rows.build = compare_builds(scene, options, bvh);
-  const Mesh& mesh = scene.mesh();
-  const std::vector<Peer> peers = make_peers(mesh, options.threads);
+  const std::vector<Peer> peers = make_peers(scene.scene, options.threads);
 
   const auto add = [&](Kind kind, const char* name, Question& question) {
     RayRow row = compare_rays(*bvh, peers, kind, question, options);
@@ -165,15 +164,16 @@ SceneRows compare(const BenchScene& scene, const CompareOptions& options) {
   Question primary(Kind::primary, primary_rays(scene.camera, options.size));
   add(Kind::primary, "primary", primary);
   const Traced traced{.rays = primary.rays(), .hits = primary.hits()};
-  const double size = extent(mesh);
+  const double size = extent(scene.scene);
   {
-    auto rays = cosine_rays(mesh, traced, size, std::numeric_limits<float>::infinity(), 1);
+    auto rays =
+        cosine_rays(bvh->primitives(), traced, size, std::numeric_limits<float>::infinity(), 1);
     shuffle(rays, 2);
     Question bounce(Kind::bounce, std::move(rays));
     add(Kind::bounce, "bounce", bounce);
   }
-  Question occlusion(Kind::occlusion,
-                     cosine_rays(mesh, traced, size, static_cast<float>(0.05 * size), 3));
+  Question occlusion(Kind::occlusion, cosine_rays(bvh->primitives(), traced, size,
+                                                  static_cast<float>(0.05 * size), 3));
   add(Kind::occlusion, "occlusion", occlusion);
   return rows;
 }

@@ -95,8 +95,15 @@ RTCIntersectContext context_of(PeerMode mode) {
   return context;
 }
 
-PeerHit hit_of(unsigned geometry, unsigned primitive, float t) {
-  return {geometry == RTC_INVALID_GEOMETRY_ID ? kMiss : primitive, t};
+/// A hit in Embree's numbers.
+struct Numbers {
+  unsigned instance, geometry, primitive;
+};
+
+PeerHit hit_of(const Numbers& hit, std::span<const std::uint32_t> first_ids, float t) {
+  if (hit.geometry == RTC_INVALID_GEOMETRY_ID) return {kMiss, t};
+  const bool is_instance = hit.instance != RTC_INVALID_GEOMETRY_ID;
+  return {first_ids[is_instance ? hit.instance : hit.geometry] + hit.primitive, t};
 }
 
 // Calls f(first ray, number of rays) for each packet of [begin, end).
@@ -107,7 +114,8 @@ void for_each_packet(std::size_t begin, std::size_t end, std::size_t width, F f)
 
 template <int K>
 void intersect_packets(RTCScene scene, PeerMode mode, std::span<const RayPacket<K>> packets,
-                       std::size_t begin, std::size_t end, std::span<PeerHit> hits) {
+                       std::size_t begin, std::size_t end, std::span<const std::uint32_t> first_ids,
+                       std::span<PeerHit> hits) {
   alignas(64) std::array<int, K> valid;
   valid.fill(-1);
   alignas(64) typename Calls<K>::RayHit query{};
@@ -116,9 +124,11 @@ void intersect_packets(RTCScene scene, PeerMode mode, std::span<const RayPacket<
   for_each_packet(begin, end, K, [&](std::size_t first, std::size_t n) {
     copy<K>(packets[first / K], query.ray);
     std::fill_n(query.hit.geomID, K, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(query.hit.instID[0], K, RTC_INVALID_GEOMETRY_ID);
     Calls<K>::kIntersect(valid.data(), scene, &context, &query);
     for (std::size_t k = 0; k < n; ++k)
-      hits[first + k] = hit_of(query.hit.geomID[k], query.hit.primID[k], query.ray.tfar[k]);
+      hits[first + k] = hit_of({query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]},
+                               first_ids, query.ray.tfar[k]);
   });
 }
 
@@ -153,10 +163,8 @@ PeerRays::PeerRays(std::span<const Ray> rays) : single(rays.begin(), rays.end())
   by_16 = pack<16>(single);
 }
 
-PeerScene::PeerScene(const Mesh& mesh, const PeerOptions& options)
+PeerScene::PeerScene(const Scene& scene, const PeerOptions& options)
     : bytes_(std::make_unique<std::atomic<std::ptrdiff_t>>(0)) {
-  if (!mesh.positions.is_borrowed())
-    throw std::runtime_error("Embree needs room behind the last position");
   const std::string configuration = "threads=" + std::to_string(options.threads) +
                                     (options.isa.empty() ? "" : ",isa=" + options.isa);
   device_.reset(rtcNewDevice(configuration.c_str()));
@@ -168,9 +176,42 @@ PeerScene::PeerScene(const Mesh& mesh, const PeerOptions& options)
         return true;
       },
       bytes_.get());
-  scene_.reset(rtcNewScene(device_.get()));
-  rtcSetSceneBuildQuality(scene_.get(), options.quality);
-  rtcSetSceneFlags(scene_.get(), options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  const auto make_scene = [&] {
+    RTCScene made = rtcNewScene(device_.get());
+    rtcSetSceneBuildQuality(made, options.quality);
+    rtcSetSceneFlags(made, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    return made;
+  };
+  scene_.reset(make_scene());
+  std::uint32_t first_id = 0;
+  for (const Object& object : scene.objects) {
+    const auto& mesh = std::get<Mesh>(object.shape);
+    first_ids_.push_back(first_id);
+    first_id += static_cast<std::uint32_t>(mesh.triangles.size());
+    if (!mesh.placement) {
+      attach(mesh, scene_.get());
+      continue;
+    }
+    if (!shared_) {
+      shared_.reset(make_scene());
+      attach(mesh, shared_.get());
+    }
+    std::array<float, 12> columns;
+    for (int k = 0; k < 12; ++k)
+      columns[static_cast<std::size_t>(k)] =
+          static_cast<float>(mesh.placement->column(k / 3)[k % 3]);
+    RTCGeometry instance = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, shared_.get());
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    rtcCommitGeometry(instance);
+    rtcAttachGeometry(scene_.get(), instance);
+    rtcReleaseGeometry(instance);
+  }
+}
+
+void PeerScene::attach(const Mesh& mesh, RTCScene scene) const {
+  if (!mesh.positions.is_borrowed())
+    throw std::runtime_error("Embree needs room behind the last position");
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                              mesh.positions.data(), 0, sizeof(Vec3), mesh.positions.size());
@@ -178,11 +219,12 @@ PeerScene::PeerScene(const Mesh& mesh, const PeerOptions& options)
                              mesh.triangles.data(), 0, sizeof mesh.triangles[0],
                              mesh.triangles.size());
   rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_.get(), geometry);
+  rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
 }
 
 void PeerScene::commit() {
+  if (shared_) rtcCommitScene(shared_.get());
   rtcCommitScene(scene_.get());
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
     throw std::runtime_error("Embree could not build the scene");
@@ -195,29 +237,36 @@ bool PeerScene::is_16_wide() const {
 void PeerScene::intersect(PeerMode mode, const PeerRays& rays, std::size_t begin, std::size_t end,
                           std::span<PeerHit> hits) const {
   RTCScene scene = scene_.get();
-  if (mode.width == 4) return intersect_packets<4>(scene, mode, rays.by_4, begin, end, hits);
-  if (mode.width == 8) return intersect_packets<8>(scene, mode, rays.by_8, begin, end, hits);
-  if (mode.width == 16) return intersect_packets<16>(scene, mode, rays.by_16, begin, end, hits);
+  if (mode.width == 4)
+    return intersect_packets<4>(scene, mode, rays.by_4, begin, end, first_ids_, hits);
+  if (mode.width == 8)
+    return intersect_packets<8>(scene, mode, rays.by_8, begin, end, first_ids_, hits);
+  if (mode.width == 16)
+    return intersect_packets<16>(scene, mode, rays.by_16, begin, end, first_ids_, hits);
   RTCIntersectContext context = context_of(mode);
   alignas(64) std::array<RTCRayHit, kStream> queries{};
   const auto width = static_cast<std::size_t>(mode.width);
   for_each_packet(begin, end, width, [&](std::size_t first, std::size_t n) {
     for (std::size_t k = 0; k < n; ++k) {
       queries[k].ray = single(rays.single[first + k]);
-      queries[k].hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      queries[k].hit.geomID = queries[k].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     }
     if (width == 1)
       rtcIntersect1(scene, &context, queries.data());
     else
       rtcIntersect1M(scene, &context, queries.data(), static_cast<unsigned>(n), sizeof(RTCRayHit));
     for (std::size_t k = 0; k < n; ++k)
-      hits[first + k] = hit_of(queries[k].hit.geomID, queries[k].hit.primID, queries[k].ray.tfar);
+      hits[first + k] =
+          hit_of({queries[k].hit.instID[0], queries[k].hit.geomID, queries[k].hit.primID},
+                 first_ids_, queries[k].ray.tfar);
   });
 }
 
 void PeerScene::occluded(PeerMode mode, const PeerRays& rays, std::size_t begin, std::size_t end,
                          std::span<std::uint8_t> hits) const {
   RTCScene scene = scene_.get();
+  // In Embree 3.13.5, coherent packets of occlusion rays never return from a scene with instances.
+  if (shared_) mode.coherent = false;
   if (mode.width == 4) return occlude_packets<4>(scene, mode, rays.by_4, begin, end, hits);
   if (mode.width == 8) return occlude_packets<8>(scene, mode, rays.by_8, begin, end, hits);
   if (mode.width == 16) return occlude_packets<16>(scene, mode, rays.by_16, begin, end, hits);

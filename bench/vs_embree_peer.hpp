@@ -2,6 +2,7 @@
 /// Wraps Embree: a scene with one mesh, and all modes of tracing many rays.
 
 #include <microtrace/ray.hpp>
+#include <microtrace/scene.hpp>
 #include <microtrace/shape.hpp>
 
 #include <atomic>
@@ -62,9 +63,10 @@ struct PeerOptions {
 /// An Embree scene. Throws std::runtime_error if Embree reports an error.
 class PeerScene {
  public:
-  /// Shares the mesh with Embree, so it must outlive this object. The memory of positions must
-  /// extend one float past the last one, because Embree reads 16 bytes for each position.
-  PeerScene(const Mesh& mesh, const PeerOptions& options);
+  /// Shares the scene's meshes with Embree, so it must outlive this object. Placed meshes, which
+  /// must all be the same one, become instances. The memory of positions must extend one float past
+  /// the last one, because Embree reads 16 bytes for each position.
+  PeerScene(const Scene& scene, const PeerOptions& options);
 
   /// Builds the tree; the build benchmark measures this function.
   void commit();
@@ -82,6 +84,8 @@ class PeerScene {
                 std::span<std::uint8_t> hits) const;
 
  private:
+  void attach(const Mesh& mesh, RTCScene scene) const;
+
   struct Release {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
@@ -91,7 +95,8 @@ class PeerScene {
 
   std::unique_ptr<std::atomic<std::ptrdiff_t>> bytes_;
   Owner<RTCDevice> device_;
-  Owner<RTCScene> scene_;
+  Owner<RTCScene> scene_, shared_;  // shared_ holds the mesh of instances; null without instances
+  std::vector<std::uint32_t> first_ids_;  // of each object
 };
 
 }  // namespace microtrace::bench

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace microtrace::bench {
 namespace {
@@ -44,10 +46,30 @@ BenchScene named_sphere(std::string name, std::size_t triangles) {
   return make_scene(std::move(name), generated::displaced_sphere(triangles), pose, 45);
 }
 
+/// A thousand instances of a displaced sphere, each turned and scaled in its own way.
+BenchScene field(std::size_t triangles) {
+  constexpr int kSide = 32;
+  const Pose pose{.position = {0, 18, 55}, .direction = {0, -0.4, -0.92}};
+  BenchScene made = make_scene("field", generated::displaced_sphere(triangles), pose, 40);
+  Mesh mesh = std::get<Mesh>(made.scene.objects[0].shape);
+  mesh.triangles.share();
+  made.scene.objects.clear();
+  for (int i = 0; i < 1000; ++i) {
+    const auto number = static_cast<std::uint64_t>(i);
+    const DVec3 axis = random_point(1, 2 * number), offset = random_point(1, 2 * number + 1);
+    const DVec3 place(2.7 * (i % kSide - kSide / 2), 0, 2.7 * (i / kSide - kSide / 2));
+    DMat4 m = glm::translate(DMat4(1), place + 0.5 * offset);
+    m = glm::scale(glm::rotate(m, std::numbers::pi * offset.x, axis), DVec3(1 + 0.4 * offset.y));
+    mesh.placement = std::make_shared<const Placement>(m);
+    made.scene.objects.push_back({.name = std::to_string(i), .shape = mesh});
+  }
+  return made;
+}
+
 }  // namespace
 
 const std::vector<std::string>& generated_scene_names() {
-  static const std::vector<std::string> names{"sphere", "hall", "terrain"};
+  static const std::vector<std::string> names{"sphere", "hall", "terrain", "field"};
   return names;
 }
 
@@ -62,7 +84,9 @@ BenchScene generated_scene(const std::string& name, bool small) {
     const Pose pose{.position = {0.07, 0.9, 1.2}, .direction = {-0.1, -0.9, -1.2}};
     return make_scene(name, generated::terrain(10 * million), pose, 45);
   }
-  throw std::invalid_argument("no scene is named " + name + "; there are sphere, hall, terrain");
+  if (name == "field") return field(million / 10);
+  throw std::invalid_argument("no scene is named " + name +
+                              "; there are sphere, hall, terrain, field");
 }
 
 BenchScene sphere_scene(std::size_t triangles) {
@@ -86,7 +110,7 @@ BenchScene scene_from_file(const std::string& path) {
     lo = glm::min(lo, DVec3(p));
     hi = glm::max(hi, DVec3(p));
   }
-  const DVec3 direction = DVec3(-0.6, -0.35, -0.7) * extent(all);
+  const DVec3 direction = DVec3(-0.6, -0.35, -0.7) * glm::length(hi - lo);
   const Pose pose{.position = (lo + hi) / 2.0 - direction, .direction = direction};
   return make_scene(std::filesystem::path(path).stem(), std::move(all), pose, 45);
 }

@@ -10,20 +10,19 @@
 
 namespace microtrace::bench {
 
-/// A scene with one mesh, so that both programs number triangles in the same way.
+/// A scene of meshes.
 struct BenchScene {
   std::string name;
   Scene scene;
   PerspectiveCamera camera;
-
-  [[nodiscard]] const Mesh& mesh() const { return std::get<Mesh>(scene.objects[0].shape); }
 };
 
 /// The names of the scenes in the order of the runs.
 [[nodiscard]] const std::vector<std::string>& generated_scene_names();
 
-/// Makes sphere (1 M triangles), hall (1 M, seen from inside) or terrain (10 M). `small` divides
-/// these numbers by 100. Throws std::invalid_argument for other names.
+/// Makes sphere (1 M triangles), hall (1 M, seen from inside), terrain (10 M), or field (a thousand
+/// instances of a sphere of 100 000). `small` divides these numbers of triangles by 100. Throws
+/// std::invalid_argument for other names.
 [[nodiscard]] BenchScene generated_scene(const std::string& name, bool small);
 
 /// Returns a displaced sphere with about this number of triangles.

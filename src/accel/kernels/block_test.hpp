@@ -113,7 +113,8 @@ struct BlockTest {
   }
   /// Tests an instance's mesh. Lanes outside of `maybe` are certain misses of the instance's
   /// triangles; the other results have no meaning.
-  void run(const TriangleBlock& block, const InnerRay& ray, float t_begin, float t_limit) {
+  __attribute__((always_inline)) void run(const TriangleBlock& block, const InnerRay& ray,
+                                          float t_begin, float t_limit) {
     run_line(block, {ray.o, ray.d, ray.d_sum, ray.slack}, t_begin, t_limit);
   }
 
@@ -237,11 +238,15 @@ template <int N, bool kAny, class Slowly>
 inline void meet_instance_lanes(const TreeView& tree, const Instance& instance,
                                 const TriangleBlock& block, const BlockTest<N>& inner,
                                 const KernelRay& ray, ClosestSoFar& best, const Slowly& fallback) {
+  // Most rays that leave an instance may hit the triangle that they leave, but nothing else nearby.
+  const std::uint32_t omitted = ray.omitted_id - instance.first_id;
+  const Lanes open = inner.maybe & ~lanes_within(block.id, omitted, omitted);
+  if (open == 0) return;
   TriangleBlock placed;
   tree.scene_block(instance, block, placed);
   BlockTest<N> test;
   test.run(placed, ray, best.hi);
-  test.maybe &= inner.maybe;
+  test.maybe &= open;
   meet_lanes<N, kAny>(tree, placed, test, ray, best, fallback);
 }
 

@@ -223,6 +223,15 @@ class StreamWalk {
   // Always inlined, because GCC removes calls of a function that only prefetches.
   __attribute__((always_inline)) void fetch(ChildRef child, const Scope& scope) const {
     const Place& slot = kPlaces[child >> 30U];
+    if constexpr (kInstances) {
+      if (is_instance(child)) {
+        const char* const instance =
+            reinterpret_cast<const char*>(tree_.instances + (child - child_ref::kFirstInstance));
+        __builtin_prefetch(instance);
+        __builtin_prefetch(instance + 64);
+        return;
+      }
+    }
     const bool is_leaf = (child & child_ref::kTriangles) != 0;
     // Numbers instead of pointers, because the array is null if there is no data of this kind.
     const std::uintptr_t begin = is_leaf ? reinterpret_cast<std::uintptr_t>(scope.blocks)
