@@ -23,12 +23,13 @@ struct Double3 {
 /// A triangle's plane relative to a ray's origin o: the normal n = e1 x e2 and the height A.n,
 /// where A = a - o.
 template <class D>
-struct SeenPlane {
+struct PlaneOfTriangle {
   Double3<D> n;
   D height, height_error;
   Double3<D> sum;  ///< the permanent of each component of n (see filter.hpp)
 
-  SeenPlane(const Double3<D>& o, const Double3<D>& a, const Double3<D>& b, const Double3<D>& c) {
+  PlaneOfTriangle(const Double3<D>& o, const Double3<D>& a, const Double3<D>& b,
+                  const Double3<D>& c) {
     const Double3<D> from = a - o, e1 = b - a, e2 = c - a;
     const D left_x = e1.y * e2.z, left_y = e1.z * e2.x, left_z = e1.x * e2.y;
     const D right_x = e1.z * e2.y, right_y = e1.x * e2.z, right_z = e1.y * e2.x;
@@ -46,8 +47,8 @@ struct SeenPlane {
 /// Writes N parameters t and returns the lanes whose t is certainly rounded correctly. size_error
 /// bounds the error of d.n.
 template <int N, class D>
-inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, const D& size_error,
-                     float* t) {
+inline Lanes round_t(const PlaneOfTriangle<D>& plane, const Double3<Double<N>>& d,
+                     const D& size_error, float* t) {
   using V = Double<N>;
   const V size = plane.n.x * d.x + plane.n.y * d.y + plane.n.z * d.z;
   // Like quotient_result, but with only one division. t and the ends of its interval have three
@@ -75,7 +76,7 @@ inline Double3<Double<N>> widened3(const float* const (&p)[3], int i) {
 }
 
 template <int N>
-inline Double<N> size_error(const SeenPlane<Double<N>>& plane, const Double3<Double<N>>& d) {
+inline Double<N> size_error(const PlaneOfTriangle<Double<N>>& plane, const Double3<Double<N>>& d) {
   return kSlopeRoundings * kRounding *
              (plane.sum.x * magnitude(d.x) + plane.sum.y * magnitude(d.y) +
               plane.sum.z * magnitude(d.z)) +
@@ -86,8 +87,8 @@ template <int N>
 std::uint64_t round_t(HitBatch& hits) {
   std::uint64_t certain = 0;
   for (int i = 0; i < kHitBatch; i += N) {
-    const SeenPlane<Double<N>> plane(widened3<N>(hits.o, i), widened3<N>(hits.a, i),
-                                     widened3<N>(hits.b, i), widened3<N>(hits.c, i));
+    const PlaneOfTriangle<Double<N>> plane(widened3<N>(hits.o, i), widened3<N>(hits.a, i),
+                                           widened3<N>(hits.b, i), widened3<N>(hits.c, i));
     const auto d = widened3<N>(hits.d, i);
     certain |= std::uint64_t{round_t<N>(plane, d, size_error<N>(plane, d), hits.t + i)} << i;
   }
@@ -152,8 +153,8 @@ class PacketRounding {
       return Double3<Double<N>>{widened<N>(p[0]), widened<N>(p[1]), widened<N>(p[2])};
     };
     const Double<N> zero{};
-    const SeenPlane<Double<N>> plane({zero + o_.x, zero + o_.y, zero + o_.z}, vertex(a), vertex(b),
-                                     vertex(c));
+    const PlaneOfTriangle<Double<N>> plane({zero + o_.x, zero + o_.y, zero + o_.z}, vertex(a),
+                                           vertex(b), vertex(c));
     return round_t<N>(plane, d(i), size_error<N>(plane, d(i)), t_ + i);
   }
 
@@ -167,7 +168,7 @@ class PacketRounding {
   float* t_;
   Double3<double> o_;
   std::uint32_t place_ = kNoSlot;
-  SeenPlane<double> plane_{{}, {}, {}, {}};
+  PlaneOfTriangle<double> plane_{{}, {}, {}, {}};
   double size_error_ = 0;
 };
 
