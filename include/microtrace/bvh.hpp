@@ -98,8 +98,9 @@ class MICROTRACE_EXPORT Bvh {
 
   /// Returns true if no surface meets any segment between two points that differ from p by at most
   /// one float32 step in each coordinate. A point on a ray may therefore be rounded to p without
-  /// crossing a surface. Uses float64 with error bounds, so it may return false next to a surface
-  /// that meets no such segment. The result does not depend on BvhOptions.
+  /// crossing a surface. Exact for triangles. Uses float64 with error bounds for other shapes, so
+  /// it may return false next to one that meets no such segment. The result does not depend on
+  /// BvhOptions.
   [[nodiscard]] bool is_clear(const Vec3& p) const;
 
   /// Returns true if the ray hits anything. Faster than intersect.

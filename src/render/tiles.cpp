@@ -22,6 +22,10 @@ struct Ended {};
 /// The time after which a thread reports its progress.
 constexpr std::chrono::milliseconds kPatience{20};
 
+/// The number of tiles after which a thread looks at the clock. Tiles that take long do so
+/// themselves.
+constexpr std::uint64_t kTilesPerLook = 8;
+
 std::size_t tiles_across(std::uint32_t pixels) {
   return (std::size_t{pixels} + kTileEdge - 1) / kTileEdge;
 }
@@ -77,7 +81,7 @@ void for_each_tile(const PixelRect& window, Threads& threads, const DrawTile& dr
     tiles.take([&](std::uint64_t first, std::uint64_t last) {
       try {
         for (std::uint64_t index = first; index < last; ++index) {
-          poll();
+          if (index % kTilesPerLook == 0) poll();
           draw(tile_at(index, window), poll);
           ++done;
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <variant>
 
 #include <CGAL/Mpzf.h>
@@ -98,6 +99,17 @@ bool hits(const Plane& plane, const Ray& ray) {
   const auto n = vector<Ring>(plane.normal);
   const Ring::Plane_3 set(n.x(), n.y(), n.z(), -(n * (point<Ring>(plane.point) - CGAL::ORIGIN)));
   return std::visit([&](const auto& part) { return Meet{}(set, part); }, reach(ray));
+}
+
+bool meets_box(const Triangle& triangle, const Vec3& lo, const Vec3& hi) {
+  const Field::Iso_cuboid_3 box(point<Field>(lo), point<Field>(hi));
+  const auto meets = [&]<class Part>(const Part& part) {
+    if constexpr (std::is_same_v<Part, Field::Point_3>)
+      return !box.has_on_unbounded_side(part);
+    else
+      return CGAL::do_intersect(part, box);
+  };
+  return std::visit(meets, hull<Field>(corners<Field>(triangle)));
 }
 
 Rational first_parameter(const Triangle& triangle, const Ray& ray) {

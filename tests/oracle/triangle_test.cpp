@@ -3,6 +3,7 @@
 
 #include "exact/grid.hpp"
 #include "exact/intersect.hpp"
+#include "exact/triangle_box.hpp"
 #include "oracle/cgal_intersections.hpp"
 #include "oracle/rounding_check.hpp"
 #include "support/cases/adversarial_rays.hpp"
@@ -12,6 +13,7 @@
 
 #include <optional>
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 namespace microtrace::oracle {
@@ -105,6 +107,27 @@ TEST_P(TriangleKinds, AgreesOnHitParameterAndOrder) {
   }
   EXPECT_GT(hit_count, count / 100) << "too few hits to mean anything";
   announce(ray_count, hit_count);
+}
+
+TEST_P(TriangleKinds, AgreesOnBoxes) {
+  adversarial::Random random = announced_random(50 + static_cast<std::uint64_t>(GetParam()));
+  int met = 0, missed = 0;
+  for (int i = 0; i < case_count(0.01) && !HasFatalFailure(); ++i) {
+    const Triangle t = adversarial::triangle_case(random, GetParam()).shape;
+    // Most boxes are a few steps wide, and near a corner or a point of an edge.
+    const double s = random.one_in(3) ? 0 : random.unit();
+    const Vec3 p(DVec3(t.a) * (1 - s) + DVec3(t.b) * s);
+    const Vec3 q = random.jitter(p, 1 << random.between(0, 4)),
+               r = random.one_in(8) ? t.c : random.jitter(q, 1 << random.between(0, 4));
+    const Vec3 lo = glm::min(q, r), hi = glm::max(q, r);
+    // CGAL 5.5 requires boxes with a volume.
+    if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z)) continue;
+    const bool expected = meets_box(t, lo, hi);
+    ASSERT_EQ(exact::meets_box(t, lo, hi), expected) << i;
+    ++(expected ? met : missed);
+  }
+  EXPECT_GT(met, case_count(0.01) / 100);
+  EXPECT_GT(missed, case_count(0.01) / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(TriangleOracle, TriangleKinds,

@@ -26,7 +26,7 @@ class Directions {
         right_(frustum.half_right),
         down_(frustum.half_down),
         size_(glm::abs(middle_) + glm::abs(right_) + glm::abs(down_) + frustum.error / kSlack) {
-    const double middle = glm::length(middle_), radius = glm::length(right_) + glm::length(down_);
+    const double middle = glm::length(middle_), radius = sum(right_) + sum(down_);
     lengths_ = {.lo = (middle - radius) * (1 - kSlack), .hi = (middle + radius) * (1 + kSlack)};
   }
 
@@ -42,17 +42,23 @@ class Directions {
     return around(middle_[axis],
                   std::abs(right_[axis]) + std::abs(down_[axis]) + kSlack * size_[axis]);
   }
-  /// Returns bounds of |d x m|. The components of m must have errors of at most 2^-50 |m|.
-  [[nodiscard]] Interval cross_length(const DVec3& m) const {
-    const double radius = glm::length(glm::cross(right_, m)) + glm::length(glm::cross(down_, m)) +
-                          kSlack * glm::length(size_) * glm::length(m);
-    const Interval bounds = around(glm::length(glm::cross(middle_, m)), radius);
+  /// Returns bounds of |d x m|. The components of m must have errors of at most 2^-50 |m|. If the
+  /// lower bound exceeds `enough`, the bounds may be wider than necessary.
+  [[nodiscard]] Interval cross_length(const DVec3& m, double enough) const {
+    const DVec3 right = glm::cross(right_, m), down = glm::cross(down_, m);
+    const double middle = glm::length(glm::cross(middle_, m)), error = kSlack * sum(size_) * sum(m);
+    const Interval wide = around(middle, sum(right) + sum(down) + error);
+    if (wide.lo > enough) return wide;
+    const Interval bounds = around(middle, glm::length(right) + glm::length(down) + error);
     return {.lo = std::max(bounds.lo, 0.0), .hi = bounds.hi};
   }
   /// Bounds of |d|. The lower one may be negative.
   [[nodiscard]] const Interval& lengths() const { return lengths_; }
 
  private:
+  /// The sum of the components' magnitudes, an upper bound of the length.
+  static double sum(const DVec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
   /// Twice the error of a ray's direction, which leaves room for the roundings of float64.
   static constexpr double kSlack = 0x1p-22;
 

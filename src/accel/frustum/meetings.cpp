@@ -83,9 +83,11 @@ Meeting meeting(const Directions& directions, const Vec3& o, const Sphere& spher
   const double distance = glm::length(m), r = sphere.radius;
   const double c = (distance - r) * (distance + r);
   if (!(distance * (1 - kRelative) > r * (1 + kRelative))) return {};
-  const Interval lengths = directions.lengths(), v = directions.cross_length(m);
+  const Interval lengths = directions.lengths();
   if (!(lengths.lo > 0)) return {};
-  if (v.lo * (1 - kRelative) > r * lengths.hi * (1 + kRelative)) return {.kind = Kind::none};
+  const double most = r * lengths.hi * (1 + kRelative);
+  const Interval v = directions.cross_length(m, most * (1 + 2 * kRelative));
+  if (v.lo * (1 - kRelative) > most) return {.kind = Kind::none};
   const Interval b = directions.along(m, glm::abs(m));
   if (b.lo > 0) return {.kind = Kind::none};
   Meeting result;
@@ -93,7 +95,6 @@ Meeting meeting(const Directions& directions, const Vec3& o, const Sphere& spher
   result.t.lo = (distance - r) / lengths.hi * (1 - kRelative);
   const double least = r * lengths.lo * (1 - kRelative);
   if (!(b.hi < 0) || !(v.hi * (1 + kRelative) < least)) return result;
-  const double most = r * lengths.hi * (1 + kRelative);
   const Interval root{.lo = std::sqrt((least - v.hi) * (least + v.hi)),
                       .hi = std::sqrt((most - v.lo) * (most + v.lo))};
   // c is a product of a sum and a difference whose errors are at most 2^-50 times the distance.

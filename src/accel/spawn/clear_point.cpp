@@ -3,14 +3,15 @@
 #include "accel/build/references/shape_box.hpp"
 #include "accel/spawn/box_clearance.hpp"
 #include "accel/spawn/touching.hpp"
+#include "exact/triangle_box.hpp"
 
 #include <algorithm>
 
 namespace microtrace {
 namespace {
 
-// Returns true if the bounding boxes exclude a common point. This test makes the result independent
-// of the tree, which decides what other primitives are near enough to be tested.
+// Returns true if the bounding boxes exclude a common point. Makes the result for shapes other than
+// triangles independent of the tree, which decides what primitives are near enough to be tested.
 template <class AnyShape>
 bool is_apart(const AnyShape& shape, const Bounds& box) {
   const build::Box own = build::box_of(shape);
@@ -24,6 +25,17 @@ bool is_apart(const Quadric&, const Bounds&) {
   return false;
 }
 
+// Decides what clears_box leaves open. Exactly for triangles, because the tree may have split them:
+// whether it finds the triangle then depends on the boxes of its parts, if the triangle is near the
+// box but does not meet it.
+bool meets(const Triangle& triangle, const Bounds& box) {
+  return exact::meets_box(triangle, box.lo, box.hi);
+}
+template <class Other>
+bool meets(const Other&, const Bounds&) {
+  return true;
+}
+
 }  // namespace
 
 bool is_clear_among(const Primitives& primitives, const Tree* tree,
@@ -35,7 +47,7 @@ bool is_clear_among(const Primitives& primitives, const Tree* tree,
   const auto test = [&](PrimitiveId id) {
     is_clear = is_clear && primitives.visit(id, [&](const auto& shape) {
       return build::is_empty(shape) || is_apart(shape, box) ||
-             (is_filterable(shape) && clears_box(shape, middle, radius));
+             (is_filterable(shape) && clears_box(shape, middle, radius)) || !meets(shape, box);
     });
   };
   std::ranges::for_each(outside, test);
