@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace microtrace {
@@ -113,6 +114,40 @@ TEST(CommonHit, HoldsInDifficultScenes) {
   }
   EXPECT_GT(counts.hits, 100);
   EXPECT_GT(counts.misses, 100);
+}
+
+// Frustums of one ray, which touches an edge or a sphere if its direction is not rounded.
+TEST(CommonHit, AllowsForTheRoundingOfDirections) {
+  Random random = traversal::announced_random(102);
+  int unknown = 0, hits = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const RayGenerator camera(random_camera(random, 4.0F * random.in_cube(1)), kSize);
+    const double x = kSize.width * random.unit(), y = kSize.height * random.unit();
+    const std::optional<Frustum> frustum = camera.frustum(x, y, x, y);
+    if (!frustum) continue;
+    const DVec3 direction = glm::normalize(frustum->middle);
+    const DVec3 touched = DVec3(frustum->o) + direction * (1 + 4 * random.unit());
+    const DVec3 beside = glm::normalize(glm::cross(direction, DVec3(random.in_cube(1))));
+    const double size = 0.1 + random.unit();
+    Scene scene;
+    if (random.one_in(2))
+      scene.objects.push_back({.name = "",
+                               .shape = Triangle{.a = Vec3(touched + size * beside),
+                                                 .b = Vec3(touched - size * beside),
+                                                 .c = random.in_cube(4)}});
+    else
+      scene.objects.push_back({.name = "",
+                               .shape = Sphere{.center = Vec3(touched + size * beside),
+                                               .radius = static_cast<float>(size)}});
+    const Bvh bvh(scene);
+    const CommonHit common = bvh.common_hit(*frustum);
+    const bool is_hit = bvh.intersect(camera(x, y)).has_value();
+    ASSERT_TRUE(!common.is_known || common.id.has_value() == is_hit) << i;
+    unknown += common.is_known ? 0 : 1;
+    hits += is_hit ? 1 : 0;
+  }
+  EXPECT_GT(unknown, 10000);
+  EXPECT_GT(hits, 4000);
 }
 
 }  // namespace
