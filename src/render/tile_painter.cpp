@@ -44,10 +44,16 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
       window_(window),
       film_(film),
       pattern_(filtered_pattern(options.samples, FilterSampler(options.filter))),
+      least_(pattern_[0]),
+      greatest_(pattern_[0]),
       background_(integrator.is_data() ? Vec3(0)
                                        : options.background.value_or(world.scene.background)),
       block_width_(kTileEdge),
       block_height_(kTileEdge) {
+  for (const PixelOffset& place : pattern_) {
+    least_ = {.x = std::min(least_.x, place.x), .y = std::min(least_.y, place.y)};
+    greatest_ = {.x = std::max(greatest_.x, place.x), .y = std::max(greatest_.y, place.y)};
+  }
   // The rays of a batch should be coherent, so batches consist of few pixels if pixels have many
   // samples.
   while (block_width_ * block_height_ > 1 &&
@@ -57,20 +63,17 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
 }
 
 std::optional<Sample> TilePainter::common_sample(const PixelRect& block) const {
-  const auto [least_x, greatest_x] = std::ranges::minmax(pattern_, {}, &PixelOffset::x);
-  const auto [least_y, greatest_y] = std::ranges::minmax(pattern_, {}, &PixelOffset::y);
   const std::optional<Frustum> frustum =
-      ray_.frustum(block.x0 + least_x.x, block.y0 + least_y.y, block.x1 - 1 + greatest_x.x,
-                   block.y1 - 1 + greatest_y.y);
+      ray_.frustum(block.x0 + least_.x, block.y0 + least_.y, block.x1 - 1 + greatest_.x,
+                   block.y1 - 1 + greatest_.y);
   return frustum ? integrator_.common_sample(world_, *frustum) : std::nullopt;
 }
 
+void TilePainter::set(std::uint32_t x, std::uint32_t y, const Sample& sample) const {
+  set_pixel(film_, x - window_.x0, y - window_.y0, sample.color, sample.alpha, background_);
+}
+
 void TilePainter::paint_block(const PixelRect& block) const {
-  const auto set = [&](std::size_t pixel, const Sample& sample) {
-    set_pixel(film_, block.x0 - window_.x0 + static_cast<std::uint32_t>(pixel % kTileEdge),
-              block.y0 - window_.y0 + static_cast<std::uint32_t>(pixel / kTileEdge), sample.color,
-              sample.alpha, background_);
-  };
   RayBatch<kMaxBatch> batch(integrator_, film_.has_alpha());
   std::array<double, kMaxBatch> film_x, film_y;  // of the batch's samples
   std::array<Sum, kTilePixels> sums;
@@ -82,7 +85,8 @@ void TilePainter::paint_block(const PixelRect& block) const {
     const auto [pixels, samples] = batch.trace(world_);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (is_single)
-        set(pixels[i], samples[i]);
+        set(block.x0 + static_cast<std::uint32_t>(pixels[i] % kTileEdge),
+            block.y0 + static_cast<std::uint32_t>(pixels[i] / kTileEdge), samples[i]);
       else
         sums[pixels[i]].add(samples[i]);
     }
@@ -102,16 +106,15 @@ void TilePainter::paint_block(const PixelRect& block) const {
   });
   trace();
   if (is_single) return;
-  for_each_pixel([&](std::uint32_t, std::uint32_t, std::size_t pixel) {
-    set(pixel, sums[pixel].over(static_cast<double>(pattern_.size())));
+  for_each_pixel([&](std::uint32_t x, std::uint32_t y, std::size_t pixel) {
+    set(x, y, sums[pixel].over(static_cast<double>(pattern_.size())));
   });
 }
 
 void TilePainter::paint(const PixelRect& tile) const {
   if (const std::optional<Sample> sample = common_sample(tile)) {
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y)
-      for (std::uint32_t x = tile.x0; x < tile.x1; ++x)
-        set_pixel(film_, x - window_.x0, y - window_.y0, sample->color, sample->alpha, background_);
+      for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, *sample);
     return;
   }
   for (std::uint32_t y = tile.y0; y < tile.y1; y += block_height_) {

@@ -27,6 +27,8 @@ class TilePainter {
   /// Returns the sample that all rays of the block have in common, if that is certain.
   [[nodiscard]] std::optional<Sample> common_sample(const PixelRect& block) const;
   void paint_block(const PixelRect& block) const;
+  /// Sets the pixel (x, y) of the whole picture.
+  void set(std::uint32_t x, std::uint32_t y, const Sample& sample) const;
 
   const World& world_;
   const Integrator& integrator_;
@@ -34,6 +36,7 @@ class TilePainter {
   const PixelRect& window_;
   Film& film_;
   std::vector<PixelOffset> pattern_;
+  PixelOffset least_, greatest_;  // bounds of the pattern's coordinates
   Vec3 background_;
   std::uint32_t block_width_, block_height_;
 };

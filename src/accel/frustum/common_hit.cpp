@@ -27,8 +27,8 @@ class Search {
     if (!(directions_.lengths().lo > 0)) return {};
     for (const PrimitiveId id : tree_.unbounded) consider(id, 0);
     if (tree_.has_leaves() && !search_tree()) return {};
-    if (first_.t.hi < others_from_) return {.is_known = true, .id = id_};
-    return {.is_known = others_from_ == kInfinity && first_.t.lo == kInfinity};
+    if (first_.hi < others_from_) return {.is_known = true, .id = id_};
+    return {.is_known = others_from_ == kInfinity && first_.lo == kInfinity};
   }
 
  private:
@@ -51,10 +51,10 @@ class Search {
   }
 
   void add(PrimitiveId id, const Interval& t) {
-    if (id == id_ && first_.t.hi < kInfinity) return;  // a triangle can be in several leaves
-    if (t.hi < first_.t.hi) {
-      others_from_ = std::min(others_from_, first_.t.lo);
-      first_.t = t;
+    if (id == id_ && first_.hi < kInfinity) return;  // a triangle can be in several leaves
+    if (t.hi < first_.hi) {
+      others_from_ = std::min(others_from_, first_.lo);
+      first_ = t;
       id_ = id;
     } else {
       others_from_ = std::min(others_from_, t.lo);
@@ -98,7 +98,7 @@ class Search {
         for (std::size_t i = 0; i < kWidth; ++i) {
           if (!build::has_child(node, i)) continue;
           const Interval t = inside(build::box_of_child(node, i));
-          if (t.lo <= t.hi && t.lo <= first_.t.hi) stack[size++] = {node.child[i], t.lo};
+          if (t.lo <= t.hi && t.lo <= first_.hi) stack[size++] = {node.child[i], t.lo};
         }
       } else if (build::kind_of(child) == child_ref::kTriangles) {
         visit_triangles(child, from);
@@ -121,11 +121,9 @@ class Search {
   const Frustum& frustum_;
   Directions directions_;
   std::array<Interval, 3> components_{};
-  /// The primitive with the least upper bound of t, and the least lower bound of all others.
-  struct {
-    Interval t{.lo = kInfinity, .hi = kInfinity};
-  } first_;
+  /// The primitive with the least upper bound of t, its t, and the least lower bound of all others.
   PrimitiveId id_ = 0;
+  Interval first_{.lo = kInfinity, .hi = kInfinity};
   double others_from_ = kInfinity;
 };
 

@@ -1,6 +1,7 @@
 #include "accel/frustum/meetings.hpp"
 
 #include "accel/build/references/shape_box.hpp"
+#include "accel/filters/triangle_filter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,15 +37,6 @@ Meeting plane_meeting(const Directions& directions, const DVec3& point, const DV
                   directions.along(n, size));
 }
 
-struct Cross {
-  DVec3 value, size;
-
-  Cross(const DVec3& x, const DVec3& y)
-      : value(glm::cross(x, y)),
-        size(glm::abs(DVec3(x.y * y.z, x.z * y.x, x.x * y.y)) +
-             glm::abs(DVec3(x.z * y.y, x.x * y.z, x.y * y.x))) {}
-};
-
 }  // namespace
 
 Meeting meeting(const Directions& directions, const Vec3& o, const Plane& plane) {
@@ -63,14 +55,15 @@ Meeting meeting(const Directions& directions, const Vec3& o, const Triangle& tri
               c = DVec3(triangle.c) - DVec3(o);
   // The edge functions of TriangleFilter.
   int positive = 0, negative = 0;
-  for (const Cross& edge : {Cross(b, c), Cross(c, a), Cross(a, b)}) {
-    const Interval w = directions.along(edge.value, edge.size);
+  for (const CrossProduct& edge : {CrossProduct(b, c), CrossProduct(c, a), CrossProduct(a, b)}) {
+    const Interval w = directions.along(edge.value, edge.permanent);
     positive += w.lo > 0 ? 1 : 0;
     negative += w.hi < 0 ? 1 : 0;
   }
   if (positive > 0 && negative > 0) return {.kind = Kind::none};
-  const Cross n(DVec3(triangle.b) - DVec3(triangle.a), DVec3(triangle.c) - DVec3(triangle.a));
-  Meeting result = plane_meeting(directions, a, n.value, n.size);
+  const CrossProduct n(DVec3(triangle.b) - DVec3(triangle.a),
+                       DVec3(triangle.c) - DVec3(triangle.a));
+  Meeting result = plane_meeting(directions, a, n.value, n.permanent);
   if (result.kind == Kind::all && positive != 3 && negative != 3) result.kind = Kind::unknown;
   return result;
 }
@@ -84,7 +77,6 @@ Meeting meeting(const Directions& directions, const Vec3& o, const Sphere& spher
   const double c = (distance - r) * (distance + r);
   if (!(distance * (1 - kRelative) > r * (1 + kRelative))) return {};
   const Interval lengths = directions.lengths();
-  if (!(lengths.lo > 0)) return {};
   const double most = r * lengths.hi * (1 + kRelative);
   const Interval v = directions.cross_length(m, most * (1 + 2 * kRelative));
   if (v.lo * (1 - kRelative) > most) return {.kind = Kind::none};

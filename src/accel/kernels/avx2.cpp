@@ -7,18 +7,17 @@
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {
-const Kernels kAvx2Kernels{
-    "avx2",
-    {consider_shape<4>, consider_shape<4>, consider_shape<4>, consider_shape<4>},
-    closest<8>,
-    any<8>,
-    fill_packet<8>,
-    closest_of_packet<8>,
-    prepare_stream<8>,
-    closest_of_stream<8, 8>,
-    any_of_stream<8, 8>,
-    round_t<4>,
-    round_t_of_packet<4>,
-    touching<8, 8>,
-    edge_tests};
+const Kernels kAvx2Kernels{"avx2",
+                           kShapeKernels<4>,
+                           closest<8>,
+                           any<8>,
+                           fill_packet<8>,
+                           closest_of_packet<8>,
+                           prepare_stream<8>,
+                           closest_of_stream<8, 8>,
+                           any_of_stream<8, 8>,
+                           round_t<4>,
+                           round_t_of_packet<4>,
+                           touching<8, 8>,
+                           edge_tests};
 }

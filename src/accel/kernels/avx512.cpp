@@ -7,18 +7,17 @@
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {
-const Kernels kAvx512Kernels{
-    "avx512",
-    {consider_shape<8>, consider_shape<8>, consider_shape<8>, consider_shape<8>},
-    closest<8>,
-    any<8>,
-    fill_packet<16>,
-    closest_of_packet<16>,
-    prepare_stream<16>,
-    closest_of_stream<8, 16>,
-    any_of_stream<8, 16>,
-    round_t<8>,
-    round_t_of_packet<8>,
-    touching<8, 16>,
-    edge_tests};
+const Kernels kAvx512Kernels{"avx512",
+                             kShapeKernels<8>,
+                             closest<8>,
+                             any<8>,
+                             fill_packet<16>,
+                             closest_of_packet<16>,
+                             prepare_stream<16>,
+                             closest_of_stream<8, 16>,
+                             any_of_stream<8, 16>,
+                             round_t<8>,
+                             round_t_of_packet<8>,
+                             touching<8, 16>,
+                             edge_tests};
 }

@@ -184,9 +184,9 @@ struct alignas(64) ShapeBounds {
   float t_max[kPacketRays];       ///< of the rays
 };
 
-/// Functions that consider primitive `id` for all rays of a packet, where the shape
-/// is given relative to the rays' origin. They return the rays for which the caller must consider
-/// it, one bit each.
+/// Functions that consider primitive `id` for all rays of a packet, where the shape is given
+/// relative to the rays' origin. They return the rays for which the caller must consider it, one
+/// bit each.
 struct ShapeKernels {
   template <class Seen>
   using Consider = std::uint64_t(const Seen& shape, std::uint32_t id, KernelPacket& packet,

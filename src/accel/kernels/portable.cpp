@@ -8,17 +8,8 @@
 
 namespace microtrace {
 const Kernels kPortableKernels{
-    "portable",
-    {consider_shape<2>, consider_shape<2>, consider_shape<2>, consider_shape<2>},
-    closest<4>,
-    any<4>,
-    fill_packet<4>,
-    closest_of_packet<4>,
-    prepare_stream<4>,
-    closest_of_stream<4, 4>,
-    any_of_stream<4, 4>,
-    round_t<4>,
-    round_t_of_packet<4>,
-    touching<4, 4>,
+    "portable",          kShapeKernels<2>,     closest<4>,           any<4>,
+    fill_packet<4>,      closest_of_packet<4>, prepare_stream<4>,    closest_of_stream<4, 4>,
+    any_of_stream<4, 4>, round_t<4>,           round_t_of_packet<4>, touching<4, 4>,
     edge_tests};
 }

@@ -45,10 +45,9 @@ std::uint64_t consider_shape(const Seen& shape, std::uint32_t id, KernelPacket& 
     const Lanes nearer = true_double_lanes<N>(meets & result.hit & (result.hi < best_lo));
     open |= std::uint64_t{met & ~nearer} << i;
     if (nearer == 0) continue;
-    const auto is_nearer = mask_of<N>(nearer);
     const Float<N> lo = rounded_down<N>(result.lo), hi = rounded_up<N>(result.hi);
-    store<N>(packet.best_lo + i, is_nearer ? lo : load<N>(packet.best_lo + i));
-    store<N>(packet.best_hi + i, is_nearer ? hi : load<N>(packet.best_hi + i));
+    store<N>(packet.best_lo + i, select<N>(nearer, lo, load<N>(packet.best_lo + i)));
+    store<N>(packet.best_hi + i, select<N>(nearer, hi, load<N>(packet.best_hi + i)));
     store_where<N>(nearer, id, packet.best_id + i);
     store_where<N>(nearer, kNoSlot, packet.best_slot + i);
     store_where<N>(nearer, id, found.id + i);
@@ -58,6 +57,10 @@ std::uint64_t consider_shape(const Seen& shape, std::uint32_t id, KernelPacket& 
   const int unused = kPacketRays - packet.count;
   return open << unused >> unused;
 }
+
+template <int N>
+constexpr ShapeKernels kShapeKernels{consider_shape<N>, consider_shape<N>, consider_shape<N>,
+                                     consider_shape<N>};
 
 }  // namespace
 }  // namespace microtrace
