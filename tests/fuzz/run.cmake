@@ -2,6 +2,7 @@
 #   BUILD    the build folder of the preset "fuzz"
 #   FORMAT   one of formats.cmake
 #   SECONDS  duration
+#   SEED     seed of the mutations, 0 for a random one
 cmake_minimum_required(VERSION 3.25)
 
 set(program ${BUILD}/tests/fuzz/fuzz_${FORMAT})
@@ -12,7 +13,7 @@ file(MAKE_DIRECTORY ${work}/corpus ${work}/findings)
 execute_process(
   COMMAND ${program} ${work}/corpus ${BUILD}/tests/fuzz/seeds/${FORMAT}
     -dict=${BUILD}/tests/fuzz/seeds/${FORMAT}.dict -artifact_prefix=${work}/findings/
-    -max_total_time=${SECONDS} -max_len=16384 -timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=256
+    -seed=${SEED} -max_total_time=${SECONDS} -max_len=16384 -timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=256
     -print_final_stats=1 -verbosity=1
   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT status EQUAL 0)

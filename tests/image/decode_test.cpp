@@ -1,3 +1,4 @@
+#include "base/memory_account.hpp"
 #include "io/gltf/bytes/uri.hpp"
 #include "io/image/decode/decode_image.hpp"
 #include "io/image/decode/image_header.hpp"
@@ -158,7 +159,17 @@ TEST(DecodeImage, WebpWithoutPictureIsRefusedBeforeAllocation) {
   EXPECT_THAT(made("/P8X").complaint, HasSubstr("header is damaged"));
   EXPECT_THAT(decode_image(kLosslessWebp.substr(0, 14)).complaint, HasSubstr("header is damaged"));
   const std::string found = gltf::decode_base64("UklGRj4BAABXRUJQL1A4WAoAAAA6AAAAEQAACgAA").value();
-  EXPECT_THAT(decode_image(found).complaint, HasSubstr("header is damaged"));
+  EXPECT_THAT(decode_image(found).complaint, HasSubstr("truncated or damaged"));
+}
+
+// libwebp accepts headers that are shorter than the shortest file, and sizes of 16384 x 7168 in
+// them.
+TEST(DecodeImage, TruncatedHeadersAreRefusedBeforeAllocation) {
+  const std::string found = gltf::decode_base64("UklGRqwAAABXRUJQVlA4TJ8AAAAv////BlQ=").value();
+  MemoryBudget budget(1 << 20);
+  MemoryAccount account(&budget);
+  const MemoryScope scope(account);
+  EXPECT_THAT(decode_image(found).complaint, HasSubstr("truncated or damaged"));
 }
 
 TEST(DecodeImage, OtherFilesAreNotImages) {

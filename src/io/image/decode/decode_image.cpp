@@ -2,6 +2,7 @@
 
 #include "base/memory_account.hpp"
 #include "io/image/codec_abi.hpp"
+#include "io/image/decode/image_header.hpp"
 #include "io/module_function.hpp"
 
 #include <microtrace/error.hpp>
@@ -16,10 +17,20 @@ namespace {
 /// The decoder's output. It also stores failures, because exceptions must not propagate through the
 /// module's frames.
 struct Decoding {
+  ImageHeader header{};
   DecodedImage result{};
   MemoryAccount work{memory_account().budget()};
   std::exception_ptr failure{};
 };
+
+void complain(void* context, const char* text) {
+  DecodedImage& result = static_cast<Decoding*>(context)->result;
+  try {
+    if (result.complaint.empty()) result.complaint = text;
+  } catch (const std::bad_alloc&) {
+    result.too_large = true;
+  }
+}
 
 /// An upper bound of a decoder's working memory in bytes per pixel, for example for coefficients of
 /// a progressive JPEG or colors of a WebP. The decoded pixels are counted separately.
@@ -28,6 +39,12 @@ constexpr std::uint64_t kWorkOfPixel = 6;
 void* begin(void* context, const MicrotraceImageHeader* header) {
   auto& decoding = *static_cast<Decoding*>(context);
   DecodedImage& result = decoding.result;
+  // Callers limit memory by the size in the header. Decoders can find another size in a damaged
+  // file.
+  if (header->width != decoding.header.width || header->height != decoding.header.height) {
+    complain(context, "its header is truncated or damaged");
+    return nullptr;
+  }
   const std::uint64_t pixels = std::uint64_t{header->width} * header->height;
   if (pixels > kMaxTexturePixels) {
     result.too_large = true;
@@ -55,15 +72,6 @@ void* begin(void* context, const MicrotraceImageHeader* header) {
   }
 }
 
-void complain(void* context, const char* text) {
-  DecodedImage& result = static_cast<Decoding*>(context)->result;
-  try {
-    if (result.complaint.empty()) result.complaint = text;
-  } catch (const std::bad_alloc&) {
-    result.too_large = true;
-  }
-}
-
 }  // namespace
 
 DecodedImage decode_image(std::string_view bytes) {
@@ -74,7 +82,7 @@ DecodedImage decode_image(std::string_view bytes) {
                          "its folder",
             .no_module = true};
   }
-  Decoding decoding;
+  Decoding decoding{.header = read_image_header(bytes)};
   const MicrotraceImageSink sink{&decoding, begin, complain};
   const auto decode = reinterpret_cast<MicrotraceDecode>(codec.address);
   const bool is_decoded = decode(bytes.data(), bytes.size(), &sink) != 0;
