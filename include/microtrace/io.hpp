@@ -118,6 +118,10 @@ class MICROTRACE_EXPORT SceneFile {
   /// options.time. Throws Error as load_scene() does.
   [[nodiscard]] LoadedScene at(std::optional<double> time);
 
+  /// Releases the memory that only further calls of the other functions would need. They must not
+  /// be called afterwards. The memory of the latest scene is still counted.
+  void close();
+
  private:
   struct MICROTRACE_HIDDEN Content;
   std::unique_ptr<Content> content_;

@@ -70,6 +70,7 @@ int render_pictures(cli::Arguments arguments) {
   cli::Tables tables;
   for (std::uint32_t index = 0; index < sequence.count(); ++index) {
     LoadedScene loaded = file.at(sequence.time(index));
+    if (!arguments.frames && !arguments.shutter) file.close();
     Scene& scene = loaded.scene;
     if (index == 0) {
       environment = cli::load_environment(arguments.environment, loaded.warnings, memory);

@@ -5,6 +5,7 @@
 #include "io/json/document.hpp"
 #include "io/load_clock.hpp"
 #include "io/scene_json/scene.hpp"
+#include "scene/mesh/mesh_memory.hpp"
 
 #include <microtrace/io.hpp>
 
@@ -12,6 +13,7 @@
 #include <array>
 #include <optional>
 #include <unistd.h>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 
@@ -80,6 +82,23 @@ Reader open(std::string_view bytes, const std::string& extension, const std::str
   return document;
 }
 
+/// Size in bytes of the images and meshes that a glTF file's scenes share.
+std::uint64_t memory_of_shared(const Scene& scene) {
+  std::uint64_t result = 0;
+  for (const auto& image : scene.images) {
+    if (image == nullptr) continue;
+    result += std::visit([](const auto& samples) { return samples.size() * sizeof(samples[0]); },
+                         image->samples);
+  }
+  std::unordered_set<const Vec3*> known;
+  for (const Object& object : scene.objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh != nullptr && mesh->placement && known.insert(mesh->positions.data()).second)
+      result += memory_of(*mesh);
+  }
+  return result;
+}
+
 LoadedScene read(Reader& reader, const std::filesystem::path& folder, LoadOptions options) {
   if (auto* gltf = std::get_if<io::GltfFile>(&reader)) {
     LoadedScene result = gltf->at(options.time);
@@ -105,6 +124,7 @@ struct SceneFile::Content {
   std::filesystem::path folder;
   LoadOptions options;
   MemoryAccount memory, memory_of_scene;
+  std::uint64_t shared = 0;  ///< part of `memory` that the latest scene uses
   std::string bytes{};
   std::optional<Reader> reader{};
 };
@@ -148,7 +168,16 @@ LoadedScene SceneFile::at(std::optional<double> time) {
   options.time = time;
   content_->memory_of_scene.clear();
   const MemoryScope scope(content_->memory_of_scene);
-  return read(*content_->reader, content_->folder, options);
+  LoadedScene result = read(*content_->reader, content_->folder, options);
+  if (result.format == SceneFormat::gltf) content_->shared = memory_of_shared(result.scene);
+  return result;
+}
+
+void SceneFile::close() {
+  content_->reader.reset();
+  std::string().swap(content_->bytes);
+  content_->memory.clear();
+  content_->memory.take(content_->shared, "the images and shared meshes of a scene");
 }
 
 LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {

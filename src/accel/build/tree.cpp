@@ -5,7 +5,6 @@
 #include "accel/build/references/presplit.hpp"
 #include "accel/build/references/reference.hpp"
 #include "accel/build/refit.hpp"
-#include "accel/build/wide/collapse.hpp"
 #include "accel/build/wide/tree_writer.hpp"
 #include "accel/build/wide/wide_tree.hpp"
 #include "base/memory_account.hpp"
@@ -21,16 +20,6 @@ constexpr int kBinsForPreview = 8;
 
 // Minimum number of references for which starting threads pays off.
 constexpr std::size_t kWorthThreads = 20000;
-
-void plan(build::BinaryTree& binary, build::WorkerPool& pool) {
-  using namespace build;
-  const AreaMeasure area(binary.root.box);
-  const auto plan_node = [&](BinaryNode& node) { plan_collapse(node, area); };
-  pool.run(binary.subtrees.size(),
-           [&](std::size_t i) { binary.subtrees[i].for_each_backwards(plan_node); });
-  binary.top.for_each_backwards(plan_node);
-  plan_node(binary.root);
-}
 
 /// Takes primitives that are tested faster one by one out of a scene with few primitives.
 void take_out_few(build::References& references) {
@@ -64,7 +53,7 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   References references = gather(primitives, is_instance);
   Duplicates duplicates;
   if (!options.keeps_duplicates) duplicates = Duplicates(references, primitives);
-  references.hashes = {};
+  PageVector<std::uint32_t>().swap(references.hashes);
   if (primitives.count() <= options.few) take_out_few(references);
   WorkerPool pool(references.bounded.size() + boxes.size() < kWorthThreads ? 1 : options.threads);
   if (const Tree* const previous = options.previous.get();
@@ -92,7 +81,6 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
     tree.nodes.push_back(empty_node());
     return tree;
   }
-  plan(binary, pool);
   write_tree(binary, primitives, pool, tree);
   tree.bounds = bounds_of(binary.root.box);
   return tree;

@@ -2,6 +2,10 @@
 #include "io/gltf/scene/scene.hpp"
 #include "support/source_folder.hpp"
 
+#include <microtrace/io.hpp>
+#include <microtrace/memory.hpp>
+
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -63,6 +67,40 @@ TEST(GltfSceneFile, KnotHasACamera) {
   ASSERT_EQ(loaded.scene.cameras.size(), 1U);
   EXPECT_EQ(loaded.scene.cameras[0].name, "Front");
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
+}
+
+/// Returns how many bytes the budget still grants.
+std::uint64_t rest_of(MemoryBudget& budget) {
+  std::uint64_t rest = 0;
+  for (std::uint64_t step = std::uint64_t{1} << 40U; step > 0; step /= 2) {
+    try {
+      budget.take(rest + step, "a test");
+      budget.give_back(rest + step);
+      rest += step;
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  return rest;
+}
+
+TEST(GltfSceneFile, ClosedFilesGiveBackTheMemoryOfTheFileButNotOfItsImages) {
+  MemoryBudget budget(std::uint64_t{1} << 30U);
+  const std::filesystem::path path = scene("textured.glb");
+  {
+    SceneFile file(path, {.memory = &budget});
+    const LoadedScene loaded = file.at(std::nullopt);
+    std::uint64_t images = 0;
+    for (const auto& image : loaded.scene.images)
+      images += std::uint64_t{image->width} * image->height * image->channels;
+    ASSERT_GT(images, 0U);
+    const std::uint64_t open = rest_of(budget);
+    file.close();
+    EXPECT_GE(rest_of(budget), open + std::filesystem::file_size(path));
+    EXPECT_LE(rest_of(budget), budget.limit() - images);
+    EXPECT_EQ(triangle_count(loaded), triangle_count(load_file(path)));
+  }
+  EXPECT_EQ(rest_of(budget), budget.limit());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "accel/build/binary/binary_tree.hpp"
 
 #include "accel/build/binary/binning.hpp"
+#include "accel/build/wide/collapse.hpp"
 
 #include <algorithm>
 
@@ -70,6 +71,7 @@ class Builder {
 
   BinaryTree build() {
     std::vector<Set> open{whole()}, small;
+    area_ = AreaMeasure(tree_.root.box);
     while (!open.empty()) {
       const Set set = open.back();
       open.pop_back();
@@ -82,10 +84,13 @@ class Builder {
       open.push_back(left);
     }
     tree_.subtrees.resize(small.size());
+    std::vector<CollapseCosts> costs(small.size());
     pool_.run(small.size(), [&](std::size_t i) {
       Bins bins;
-      build_alone(small[i], tree_.subtrees[i], bins);
+      costs[i] = build_alone(small[i], tree_.subtrees[i], bins);
     });
+    auto next = costs.cbegin();
+    plan_top(tree_.root, next);
     return std::move(tree_);
   }
 
@@ -201,20 +206,31 @@ class Builder {
     return sets;
   }
 
-  // Builds a subtree recursively. The recursion is at most a few levels deeper than kDepthLimit.
-  void build_alone(const Set& set, NodeArena& arena, Bins& bins) {
-    const BinaryNode& node = *set.node;
+  // Builds and plans a subtree recursively. The recursion is at most a few levels deeper than
+  // kDepthLimit.
+  CollapseCosts build_alone(const Set& set, NodeArena& arena, Bins& bins) {
+    BinaryNode& node = *set.node;
     const bool of_one_kind = node.weight == node.count && node.weight <= kMaxLeafWeight;
     if (of_one_kind || node.count <= 1) {
       const auto leaf = references(set);
       for (std::size_t i = 0; i < leaf.size(); ++i) tree_.ids[node.begin + i] = leaf[i].id();
-      return;
+      return costs_of_leaf(node, area_);
     }
-    for (const Set& half : split_alone(set, arena, bins)) build_alone(half, arena, bins);
+    const Halves sets = split_alone(set, arena, bins);
+    const CollapseCosts left = build_alone(sets[0], arena, bins);
+    return plan_collapse(node, area_, left, build_alone(sets[1], arena, bins));
+  }
+
+  // Plans the nodes above the subtrees, whose costs `next` yields from left to right.
+  CollapseCosts plan_top(BinaryNode& node, std::vector<CollapseCosts>::const_iterator& next) {
+    if (node.count <= kSubtreeSize) return *next++;
+    const CollapseCosts left = plan_top(node.children[0], next);
+    return plan_collapse(node, area_, left, plan_top(node.children[1], next));
   }
 
   std::array<PageVector<Reference>, 2> arrays_;
   BinaryTree tree_;
+  AreaMeasure area_{Box()};
   int max_bins_;
   WorkerPool& pool_;
 };

@@ -10,21 +10,37 @@
 namespace microtrace::build {
 
 /// The optimal collapse of a node and its subtree; see collapse.hpp.
-struct CollapsePlan {
-  std::array<float, 8> cost{};            ///< cost[i - 1]: cost if collapsed to at most i subtrees
-  std::array<std::uint8_t, 9> to_left{};  ///< to_left[i] is the number of the i subtrees that come
-                                          ///< from the left child; 0: the same collapse as for i -
-                                          ///< 1
-  bool is_leaf = true;
+class CollapsePlan {
+ public:
+  /// True if the whole subtree becomes one leaf.
+  [[nodiscard]] bool is_leaf() const { return (bits_ & kLeaf) != 0; }
+  /// How many of `parts` subtrees, 2 to 8, come from the left child; 0: the same collapse as for
+  /// `parts` - 1.
+  [[nodiscard]] unsigned to_left(unsigned parts) const { return bits_ >> shift(parts) & 7U; }
+
+  void set_leaf(bool is_leaf) { bits_ = is_leaf ? bits_ | kLeaf : bits_ & ~kLeaf; }
+  void set_to_left(unsigned parts, unsigned to_left) {
+    bits_ = (bits_ & ~(7U << shift(parts))) | to_left << shift(parts);
+  }
+
+ private:
+  static constexpr std::uint32_t kLeaf = 1;
+  static constexpr unsigned shift(unsigned parts) { return 3 * parts - 5; }
+
+  std::uint32_t bits_ = kLeaf;
 };
+
+/// A node's expected cost if it is collapsed to at most i + 1 subtrees.
+using CollapseCosts = std::array<float, 8>;
 
 /// A node with `count` references, whose ids start at BinaryTree::ids[begin].
 struct BinaryNode {
   Box box;
   std::uint32_t begin = 0, count = 0, weight = 0;
-  BinaryNode* children = nullptr;  ///< two consecutive nodes; null for a leaf
   CollapsePlan plan;
+  BinaryNode* children = nullptr;  ///< two consecutive nodes; null for a leaf
 };
+static_assert(sizeof(BinaryNode) == 64);  // large scenes have one for each four triangles
 
 [[nodiscard]] inline bool is_instance(const BinaryNode& node) {
   return node.count == 1 && node.weight == kInstanceWeight;
@@ -35,14 +51,6 @@ class NodeArena {
  public:
   /// Allocates two consecutive nodes and returns the first.
   [[nodiscard]] BinaryNode* allocate_pair();
-
-  /// Calls f(node) for each node, newest first, so children come before their parents.
-  template <class F>
-  void for_each_backwards(F&& f) {
-    for (std::size_t i = chunks_.size(); i-- > 0;) {
-      for (std::size_t k = i + 1 == chunks_.size() ? used_ : kChunk; k-- > 0;) f(chunks_[i][k]);
-    }
-  }
 
  private:
   static constexpr std::size_t kChunk = 512;
@@ -58,8 +66,8 @@ struct BinaryTree {
 };
 
 /// Splits the references until each leaf holds one kind of primitive and at most eight triangles or
-/// one other primitive. The result depends only on the references and their order. `bins` is at
-/// most kMaxBins.
+/// one other primitive, and plans the collapse of all nodes. The result depends only on the
+/// references and their order. `bins` is at most kMaxBins.
 [[nodiscard]] BinaryTree build_binary_tree(PageVector<Reference> references, int bins,
                                            WorkerPool& pool);
 

@@ -12,8 +12,6 @@
 namespace microtrace::build {
 namespace {
 
-constexpr double kMostExtra = 0.3;
-
 // The constants were found by experiment. They affect speed, but never results.
 //
 // A triangle is split if the useless area of its box, halved once per Grid::level, exceeds a limit:
@@ -99,7 +97,6 @@ class Splitter {
     for (std::size_t i = 0; i < references_.size(); ++i) consider(i);
     if (candidates_.empty()) return;
     const float most = kCutsAtLeast / fourth_root(least_), scale = within_budget(most);
-    references_.reserve(references_.size() + pieces(scale));
     for (const Candidate& c : candidates_) {
       const Triangle t = triangle(references_[c.slot].id());
       split(t, c.slot, static_cast<std::size_t>(scale * c.priority));
@@ -136,8 +133,7 @@ class Splitter {
 
   // Returns the largest scale up to `most` for which the number of pieces is within the budget.
   float within_budget(float most) const {
-    const auto budget =
-        static_cast<std::size_t>(kMostExtra * static_cast<double>(references_.size()));
+    const std::size_t budget = most_pieces(references_.size());
     if (pieces(most) <= budget) return most;
     float low = 0, high = most;
     for (int i = 0; i < 20; ++i) {

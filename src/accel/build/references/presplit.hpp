@@ -6,11 +6,17 @@
 #include "accel/build/references/reference.hpp"
 
 #include <array>
+#include <cstddef>
 
 namespace microtrace::build {
 
-/// Appends references to pieces and shrinks the boxes of the original references. Adds at most 30 %
-/// more references, and none if all triangles have about the same size. The boxes of a triangle's
+/// Maximum number of references that presplit() adds to `count` references.
+[[nodiscard]] constexpr std::size_t most_pieces(std::size_t count) {
+  return count * 3 / 10;
+}
+
+/// Appends references to pieces and shrinks the boxes of the original references. Adds none if all
+/// triangles have about the same size. The boxes of a triangle's
 /// pieces together contain every point of the triangle.
 void presplit(PageVector<Reference>& references, const Primitives& primitives);
 

@@ -1,6 +1,7 @@
 #include "accel/build/references/reference.hpp"
 
 #include "accel/build/area.hpp"
+#include "accel/build/references/presplit.hpp"
 #include "accel/build/references/shape_box.hpp"
 
 #include <microtrace/error.hpp>
@@ -84,7 +85,8 @@ References gather(const Primitives& primitives, const std::vector<bool>& is_inst
   std::size_t count = 0;
   for (std::size_t i = 0; i < objects.size(); ++i)
     if (!is_instance[i]) count += primitive_count(objects[i].shape);
-  references.bounded.reserve(count);
+  // Pages that no pieces are written to take no memory.
+  references.bounded.reserve(count + most_pieces(count));
   references.hashes.reserve(count);
   for (std::size_t i = 0; i < objects.size(); ++i)
     if (!is_instance[i]) primitives.for_each_of(i, Gatherer(references));

@@ -8,16 +8,16 @@ namespace {
 
 struct Distribution {
   float cost;
-  std::uint8_t to_left;
+  unsigned to_left;
 };
 
 // Returns the cheapest distribution of `parts` subtrees over the left and the right child.
-Distribution best_distribution(const CollapsePlan& left, const CollapsePlan& right,
+Distribution best_distribution(const CollapseCosts& left, const CollapseCosts& right,
                                unsigned parts) {
-  Distribution best{.cost = left.cost[0] + right.cost[parts - 2], .to_left = 1};
+  Distribution best{.cost = left[0] + right[parts - 2], .to_left = 1};
   for (unsigned k = 2; k < parts; ++k) {
-    const float cost = left.cost[k - 1] + right.cost[parts - k - 1];
-    if (cost < best.cost) best = {.cost = cost, .to_left = static_cast<std::uint8_t>(k)};
+    const float cost = left[k - 1] + right[parts - k - 1];
+    if (cost < best.cost) best = {.cost = cost, .to_left = k};
   }
   return best;
 }
@@ -34,40 +34,42 @@ float leaf_cost(const BinaryNode& node, float area) {
 
 }  // namespace
 
-void plan_collapse(BinaryNode& node, const AreaMeasure& area) {
-  CollapsePlan& plan = node.plan;
+CollapseCosts costs_of_leaf(const BinaryNode& node, const AreaMeasure& area) {
+  CollapseCosts costs;
+  costs.fill(leaf_cost(node, area(node.box)));
+  return costs;
+}
+
+CollapseCosts plan_collapse(BinaryNode& node, const AreaMeasure& area, const CollapseCosts& left,
+                            const CollapseCosts& right) {
   const float own_area = area(node.box), as_leaf = leaf_cost(node, own_area);
-  if (node.children == nullptr) {
-    plan.cost.fill(as_leaf);
-    return;
-  }
-  const CollapsePlan &left = node.children[0].plan, &right = node.children[1].plan;
   const Distribution whole = best_distribution(left, right, kWidth);
   const float as_node = own_area * kNodeCost + whole.cost;
-  plan.to_left[kWidth] = whole.to_left;
-  plan.is_leaf = as_leaf <= as_node;
-  plan.cost[0] = plan.is_leaf ? as_leaf : as_node;
+  node.plan.set_to_left(kWidth, whole.to_left);
+  node.plan.set_leaf(as_leaf <= as_node);
+  CollapseCosts costs{std::min(as_leaf, as_node)};
   for (unsigned parts = 2; parts < kWidth; ++parts) {
     const Distribution split = best_distribution(left, right, parts);
-    const bool better = split.cost < plan.cost[parts - 2];
-    plan.cost[parts - 1] = better ? split.cost : plan.cost[parts - 2];
-    plan.to_left[parts] = better ? split.to_left : std::uint8_t{0};
+    const bool is_better = split.cost < costs[parts - 2];
+    costs[parts - 1] = is_better ? split.cost : costs[parts - 2];
+    node.plan.set_to_left(parts, is_better ? split.to_left : 0);
   }
+  return costs;
 }
 
 WideChildren::WideChildren(const BinaryNode& node) {
-  const unsigned left = node.plan.to_left[kWidth];
+  const unsigned left = node.plan.to_left(kWidth);
   cut(node.children[0], left);
   cut(node.children[1], kWidth - left);
 }
 
 void WideChildren::cut(const BinaryNode& node, unsigned parts) {
-  while (parts > 1 && node.plan.to_left[parts] == 0) --parts;
+  while (parts > 1 && node.plan.to_left(parts) == 0) --parts;
   if (parts == 1) {
     children_[count_++] = &node;
     return;
   }
-  const unsigned left = node.plan.to_left[parts];
+  const unsigned left = node.plan.to_left(parts);
   cut(node.children[0], left);
   cut(node.children[1], parts - left);
 }

@@ -15,8 +15,12 @@ inline constexpr float kBlockCost = 1;
 /// nodes above them matters.
 inline constexpr float kInstanceCost = 8;
 
-/// Computes the plan of a node whose children already have plans.
-void plan_collapse(BinaryNode& node, const AreaMeasure& area);
+/// Computes the costs of a node without children.
+[[nodiscard]] CollapseCosts costs_of_leaf(const BinaryNode& node, const AreaMeasure& area);
+
+/// Computes the plan and the costs of a node whose children have these costs.
+[[nodiscard]] CollapseCosts plan_collapse(BinaryNode& node, const AreaMeasure& area,
+                                          const CollapseCosts& left, const CollapseCosts& right);
 
 /// The children of a wide node: at most eight subtrees that together contain all of a binary node.
 class WideChildren {

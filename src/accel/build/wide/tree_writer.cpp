@@ -39,7 +39,7 @@ Places leaf_size(const BinaryNode& leaf) {
 }
 
 Places size_as_child(const BinaryNode& node) {
-  return node.plan.is_leaf ? leaf_size(node) : Places{.nodes = 1};
+  return node.plan.is_leaf() ? leaf_size(node) : Places{.nodes = 1};
 }
 
 // Returns the size of an inner node's subtree without the node itself.
@@ -47,7 +47,7 @@ Places size_below(const BinaryNode& node) {
   Places size;
   for (const BinaryNode* child : WideChildren(node)) {
     size += size_as_child(*child);
-    if (!child->plan.is_leaf) size += size_below(*child);
+    if (!child->plan.is_leaf()) size += size_below(*child);
   }
   return size;
 }
@@ -60,7 +60,7 @@ class Writer {
     ids_ = planned.ids.data();
     const BinaryNode& root = planned.root;
     Places next;
-    if (root.plan.is_leaf) {
+    if (root.plan.is_leaf()) {
       resize(leaf_size(root));
       tree_.root = write_leaf(root, next);
       return;
@@ -98,7 +98,7 @@ class Writer {
     Places size;
     for (const BinaryNode* child : WideChildren(node)) {
       size += size_as_child(*child);
-      if (child->plan.is_leaf) continue;
+      if (child->plan.is_leaf()) continue;
       if (is_job(node, *child))
         jobs_.push_back({.node = child, .size = {}, .begin = {}});
       else
@@ -126,7 +126,7 @@ class Writer {
     for (std::size_t i = 0; i < children.size(); ++i) {
       const BinaryNode& child = children[i];
       set_box(wide, i, child.box);
-      if (child.plan.is_leaf) {
+      if (child.plan.is_leaf()) {
         wide.child[i] = write_leaf(child, next);
       } else {
         slots[i] = next.nodes++;
@@ -135,7 +135,7 @@ class Writer {
     }
     for (std::size_t i = 0; i < children.size(); ++i) {
       const BinaryNode& child = children[i];
-      if (child.plan.is_leaf) continue;
+      if (child.plan.is_leaf()) continue;
       if (is_job(node, child)) {
         Job& job = jobs_[job_++];
         job.begin = next;
