@@ -8,8 +8,12 @@
 namespace microtrace {
 namespace {
 
-// The builder limits the depth of trees to 64. A mesh's tree may be below a tree of instances.
-constexpr int kStackSize = 2 * 64 * (kWidth - 1) + 2;
+/// The greatest number of subtrees on a stack. The builder limits the depth of trees to 64. A
+/// mesh's tree may be below a tree of instances.
+constexpr int stack_size(bool has_instances) {
+  return (has_instances ? 2 : 1) * 64 * (kWidth - 1) + 2;
+}
+constexpr int kStackSize = stack_size(true);
 
 /// Marks the end of the stack.
 constexpr ChildRef kFinished = child_ref::kKind;
@@ -17,11 +21,14 @@ using child_ref::kInstanceEnd;
 
 /// The subtrees that are still to be visited, each with the distance at which the ray enters it.
 /// kFinished is at the bottom.
+template <bool kInstances>
 struct RayStack {
+  // Storing a node's children may overwrite up to kWidth slots above the top.
+  static constexpr int kSlots = stack_size(kInstances) + kWidth;
+
   int size;
-  ChildRef child[kStackSize + kWidth];  // storing a node's children may overwrite up to kWidth
-                                        // slots above the top
-  float near[kStackSize + kWidth];
+  ChildRef child[kSlots];
+  float near[kSlots];
 
   void clear() {
     size = 1;
@@ -35,8 +42,8 @@ struct RayStack {
 };
 
 /// Pops the subtree that was pushed last. Without kAny, skips subtrees that start beyond the limit.
-template <bool kAny>
-inline ChildRef pop(RayStack& stack, float limit) {
+template <bool kAny, bool kInstances>
+inline ChildRef pop(RayStack<kInstances>& stack, float limit) {
   int top = stack.size - 1;
   if constexpr (!kAny) {
     while (stack.near[top] > limit) --top;
@@ -81,10 +88,10 @@ struct NodeTest {
 /// pushes the other entered children. With kAny, returns any entered child and pushes the others
 /// without their distances. If the ray enters none, pops a subtree: with kAny the top one,
 /// otherwise the first that starts before the limit.
-template <int N, bool kAny, bool kOneOrigin>
+template <int N, bool kAny, bool kInstances>
 inline ChildRef step_into(const WideNode& node, const BoxRay& ray, float begin, float limit,
-                          RayStack& stack) {
-  const NodeTest<N, kOneOrigin> test(node, ray, begin, limit);
+                          RayStack<kInstances>& stack) {
+  const NodeTest<N, !kInstances> test(node, ray, begin, limit);
   // The ninth bit gives first_lane a defined result if no child is entered.
   const int lane =
       kAny ? first_lane(test.entered | 0x100U) & 7 : least_lane(test.entered, test.near);

@@ -19,12 +19,12 @@ inline void walk(const TreeView& tree, KernelRay& ray, const Slowly& fallback, C
   prepare_ray(ray);
   Scope scope(tree);
   InnerRay inner;
-  RayStack stack;
+  RayStack<true> stack;
   stack.clear();
   for (ChildRef next = tree.root; next != kFinished;) {
     if ((next & child_ref::kKind) == 0) {
-      next = step_into<N, kAny, false>(scope.nodes[next], scope.choose(ray.box, inner.box),
-                                       ray.t_begin, best.hi, stack);
+      next = step_into<N, kAny>(scope.nodes[next], scope.choose(ray.box, inner.box), ray.t_begin,
+                                best.hi, stack);
       continue;
     }
     if (next == kInstanceEnd) {

@@ -26,9 +26,9 @@ class StreamWalk {
     for (std::uint32_t slot = 0; slot < kInFlight; ++slot) start(slot);
     while (sort_places() > 0) {
       for_each(nodes_, [&](Flight& flight, ChildRef& next) {
-        next = step_into<N, kAny, !kInstances>(
-            scope(flight).nodes[next], in_instance(flight) ? flight.inner.box : flight.ray.box,
-            flight.ray.t_begin, flight.best.hi, flight.stack);
+        next = step_into<N, kAny>(scope(flight).nodes[next],
+                                  in_instance(flight) ? flight.inner.box : flight.ray.box,
+                                  flight.ray.t_begin, flight.best.hi, flight.stack);
       });
       meet_blocks();
       for_each(others_, [&](Flight& flight, ChildRef& next) {
@@ -46,15 +46,19 @@ class StreamWalk {
   static constexpr std::uint32_t kInFlight = 32;
   static constexpr ChildRef kEmpty = ~ChildRef{0};
 
+  // The data that every step needs come first, so that few cache lines and pages are in use.
   struct alignas(64) Flight {
     KernelRay ray;
-    Scope scope;
     ClosestSoFar best;
     int number;
-    InnerRay inner;  // in the scope of an instance
-    RayStack stack;
     BlockTest<N> test;
+    RayStack<kInstances> stack;
+    Scope scope;
+    InnerRay inner;  // in the scope of an instance
+    char unused[64];
   };
+  // With an even number of cache lines, the flights' data would compete for a part of the cache.
+  static_assert(sizeof(Flight) / 64 % 2 == 1);
 
   // The tree that a ray traverses.
   [[nodiscard]] const Scope& scope(const Flight& flight) const {
@@ -209,20 +213,18 @@ class StreamWalk {
     return nodes_.size + leaves_.size + others_.size + instances_.size + finished_.size;
   }
 
-  // Describes where the data of one kind of ChildRef is stored: at offset (child & mask) * scale.
+  // Describes where the data of one kind of ChildRef is stored: at begin + (child & mask) * scale.
   struct Place {
+    std::uintptr_t begin;  // a number, because the array is null if there is no data of this kind
     std::size_t mask, scale;
     std::size_t last;  // offset of the last cache line to prefetch, in bytes
   };
-  static constexpr Place kPlaces[4] = {{~child_ref::kKind, sizeof(WideNode), 192},
-                                       {~child_ref::kKind & ~7U, sizeof(TriangleBlock) / 8, 256},
-                                       {0, 0, 0},
-                                       {0, 0, 0}};
-  static_assert(sizeof(TriangleBlock) % 8 == 0);
 
-  // Always inlined, because GCC removes calls of a function that only prefetches.
+  // Always inlined, because GCC removes calls of a function that only prefetches. Looks the kind up
+  // in tables, because a branch would often be mispredicted.
   __attribute__((always_inline)) void fetch(ChildRef child, const Scope& scope) const {
-    const Place& slot = kPlaces[child >> 30U];
+    const Place& place = places_[child >> 30U];
+    std::uintptr_t begin = place.begin;
     if constexpr (kInstances) {
       if (is_instance(child)) {
         const char* const instance =
@@ -231,18 +233,17 @@ class StreamWalk {
         __builtin_prefetch(instance + 64);
         return;
       }
+      const std::uintptr_t begins[2] = {reinterpret_cast<std::uintptr_t>(scope.nodes),
+                                        reinterpret_cast<std::uintptr_t>(scope.blocks)};
+      begin = begins[child >> 30U & 1U];
     }
-    const bool is_leaf = (child & child_ref::kTriangles) != 0;
-    // Numbers instead of pointers, because the array is null if there is no data of this kind.
-    const std::uintptr_t begin = is_leaf ? reinterpret_cast<std::uintptr_t>(scope.blocks)
-                                         : reinterpret_cast<std::uintptr_t>(scope.nodes);
-    const std::uintptr_t p = begin + (child & slot.mask) * slot.scale;
+    const std::uintptr_t p = begin + (child & place.mask) * place.scale;
     // NOLINTBEGIN(performance-no-int-to-ptr): only prefetched
     __builtin_prefetch(reinterpret_cast<const void*>(p));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 64));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 128));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 192));
-    __builtin_prefetch(reinterpret_cast<const void*>(p + slot.last));
+    __builtin_prefetch(reinterpret_cast<const void*>(p + place.last));
     // NOLINTEND(performance-no-int-to-ptr)
   }
 
@@ -254,6 +255,13 @@ class StreamWalk {
   int started_ = 0;           // number of rays or items started so far
   List nodes_, leaves_, others_, instances_, finished_;
   ChildRef next_[kInFlight];  // the subtree that the ray in each slot visits next
+  static_assert(sizeof(TriangleBlock) % 8 == 0);
+  const Place places_[4] = {
+      {reinterpret_cast<std::uintptr_t>(tree_.nodes), ~child_ref::kKind, sizeof(WideNode), 192},
+      {reinterpret_cast<std::uintptr_t>(tree_.blocks), ~child_ref::kKind & ~7U,
+       sizeof(TriangleBlock) / 8, 256},
+      {},
+      {}};
   MaybeHit hits_[kInFlight + 1];
   Flight flights_[kInFlight];
 };
