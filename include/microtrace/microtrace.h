@@ -101,6 +101,22 @@ MT_API void mt_mesh_init(mt_mesh* mesh);
 MT_API mt_status mt_scene_from_meshes(const mt_mesh* meshes, size_t count, uint32_t threads,
                                       mt_scene** scene);
 
+/* A mesh at a place in the scene. */
+typedef struct mt_instance {
+  /* The rows of the affine transform from the mesh's coordinates to the scene: x', y' and z' are
+   * row[0] x + row[1] y + row[2] z + row[3]. */
+  double scene_from_mesh[3][4];
+  uint32_t mesh; /* index of the mesh */
+} mt_instance;
+
+/* Makes a scene whose object i is instances[i]. Instances of a mesh share its arrays and its tree,
+ * and give the results of copies whose vertices are transformed in float64 and rounded once.
+ * Returns MT_INVALID_SCENE as mt_scene_from_meshes() does, and if a transform is not finite or a
+ * mesh does not exist. */
+MT_API mt_status mt_scene_from_instances(const mt_mesh* meshes, size_t mesh_count,
+                                         const mt_instance* instances, size_t instance_count,
+                                         uint32_t threads, mt_scene** scene);
+
 MT_API void mt_scene_release(mt_scene* scene);
 
 MT_API uint32_t mt_scene_primitive_count(const mt_scene* scene);

@@ -1,5 +1,6 @@
 #include "capi/handles.hpp"
 
+#include <microtrace/placement.hpp>
 #include <microtrace/validate.hpp>
 
 #include <algorithm>
@@ -8,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -86,6 +89,41 @@ Material material_of(const mt_mesh& from, const Mesh& mesh) {
           .emissive = Vec3(e[0], e[1], e[2])};
 }
 
+/// A mesh whose arrays later copies share, and its material.
+struct Shared {
+  Mesh mesh;
+  Material material;
+};
+
+std::vector<Shared> meshes_of(const mt_mesh* meshes, std::size_t count) {
+  if (count > 0) require(meshes, "meshes");
+  std::vector<Shared> result;
+  result.reserve(count);
+  // The caller may have been compiled with an older header, in which mt_mesh is smaller.
+  const auto* bytes = reinterpret_cast<const unsigned char*>(meshes);
+  const std::size_t stride = count > 0 ? meshes->size : 0;
+  for (std::size_t i = 0; i < count; ++i, bytes += stride) {
+    const mt_mesh from = complete(reinterpret_cast<const mt_mesh*>(bytes), mt_mesh_init);
+    Mesh mesh = mesh_of(from);
+    Material material = material_of(from, mesh);
+    result.push_back({.mesh = std::move(mesh), .material = std::move(material)});
+  }
+  return result;
+}
+
+Placement placement_of(const mt_instance& instance) {
+  DMat4 scene_from_mesh(1);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column)
+      scene_from_mesh[column][row] = instance.scene_from_mesh[row][column];
+  }
+  return Placement(scene_from_mesh);
+}
+
+Object object_of(Mesh mesh, std::size_t material) {
+  return {.name = "", .shape = std::move(mesh), .material = static_cast<std::uint32_t>(material)};
+}
+
 }  // namespace
 }  // namespace microtrace::capi
 
@@ -133,18 +171,41 @@ void mt_mesh_init(mt_mesh* mesh) {
 mt_status mt_scene_from_meshes(const mt_mesh* meshes, size_t count, uint32_t threads,
                                mt_scene** scene) {
   return guarded([&] {
-    if (count > 0) require(meshes, "meshes");
     require(scene, "scene");
     LoadedScene loaded;
-    // The caller may have been compiled with an older header, in which mt_mesh is smaller.
-    const auto* bytes = reinterpret_cast<const unsigned char*>(meshes);
-    const std::size_t stride = count > 0 ? meshes->size : 0;
-    for (std::size_t i = 0; i < count; ++i, bytes += stride) {
-      const mt_mesh from = complete(reinterpret_cast<const mt_mesh*>(bytes), mt_mesh_init);
-      Mesh mesh = capi::mesh_of(from);
-      loaded.scene.materials.push_back(capi::material_of(from, mesh));
+    for (auto& [mesh, material] : capi::meshes_of(meshes, count)) {
       loaded.scene.objects.push_back(
-          {.name = "", .shape = std::move(mesh), .material = static_cast<std::uint32_t>(i)});
+          capi::object_of(std::move(mesh), loaded.scene.materials.size()));
+      loaded.scene.materials.push_back(std::move(material));
+    }
+    validate(loaded.scene);
+    *scene = capi::prepared(std::move(loaded), threads);
+  });
+}
+
+mt_status mt_scene_from_instances(const mt_mesh* meshes, size_t mesh_count,
+                                  const mt_instance* instances, size_t instance_count,
+                                  uint32_t threads, mt_scene** scene) {
+  return guarded([&] {
+    if (instance_count > 0) require(instances, "instances");
+    require(scene, "scene");
+    std::vector<capi::Shared> shared = capi::meshes_of(meshes, mesh_count);
+    LoadedScene loaded;
+    for (auto& [mesh, material] : shared) {
+      mesh.share();
+      loaded.scene.materials.push_back(std::move(material));
+    }
+    loaded.scene.objects.reserve(instance_count);
+    for (std::size_t i = 0; i < instance_count; ++i) {
+      const mt_instance& instance = instances[i];
+      if (instance.mesh >= mesh_count)
+        throw Error(ErrorKind::invalid_scene, "",
+                    "instance " + std::to_string(i) + " is of mesh " +
+                        std::to_string(instance.mesh) + ", but there are " +
+                        std::to_string(mesh_count) + " meshes");
+      Mesh placed = shared[instance.mesh].mesh;
+      placed.placement = std::make_shared<const Placement>(capi::placement_of(instance));
+      loaded.scene.objects.push_back(capi::object_of(std::move(placed), instance.mesh));
     }
     validate(loaded.scene);
     *scene = capi::prepared(std::move(loaded), threads);
