@@ -48,23 +48,31 @@ def line(points, color, dash=""):
     return f'<polyline points="{path}" fill="none" stroke="{color}" stroke-width="2"{dash}/>'
 
 
-def draw(curves):
-    every = [point for points in curves.values() for point in points]
-    x, x_first, x_last = scale([n for n, _, _ in every], LEFT, WIDTH - RIGHT)
-    y, y_first, y_last = scale([v for _, a, b in every for v in (a, b)], HEIGHT - BOTTOM, TOP)
+def axes(counts, values, unit, steps):
+    """Returns the functions from numbers of triangles and from values to coordinates, and the lines of
+    an SVG picture up to the axes. `steps` are the labeled multiples of powers of ten."""
+    x, x_first, x_last = scale(counts, LEFT, WIDTH - RIGHT)
+    y, y_first, y_last = scale(values, HEIGHT - BOTTOM, TOP)
     out = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '
         'font-family="sans-serif" font-size="13">',
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
     ]
-    for value in ticks(y_first, y_last, (1, 2, 5)):
+    for value in ticks(y_first, y_last, steps):
         out.append(line([(LEFT, y(value)), (WIDTH - RIGHT, y(value))], "#ddd"))
         out.append(text(LEFT - 6, y(value) + 4, f"{value:g}", "end"))
     for value in ticks(x_first, x_last, (1,)):
         out.append(line([(x(value), TOP), (x(value), HEIGHT - BOTTOM)], "#ddd"))
         out.append(text(x(value), HEIGHT - BOTTOM + 18, f"10^{math.log10(value):.0f}"))
     out.append(text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 10, "triangles"))
-    out.append(text(LEFT - 6, TOP - 6, "Mray/s", "end"))
+    out.append(text(LEFT - 6, TOP - 6, unit, "end"))
+    return x, y, out
+
+
+def draw(curves):
+    every = [point for points in curves.values() for point in points]
+    counts = [n for n, _, _ in every]
+    x, y, out = axes(counts, [v for _, a, b in every for v in (a, b)], "Mray/s", (1, 2, 5))
     for kind, points in curves.items():
         color = COLORS[kind]
         out.append(line([(x(n), y(ours)) for n, ours, _ in points], color))
