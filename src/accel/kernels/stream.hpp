@@ -153,21 +153,23 @@ class StreamWalk {
   // the few possible hits.
   void meet_blocks() {
     int hits = 0;
-    for_each(leaves_, [&](Flight& flight, ChildRef& next) {
-      const TriangleBlock& block = scope(flight).blocks[first_entry(next)];
-      if (in_instance(flight))
-        flight.test.run(block, flight.inner, flight.ray.t_begin, flight.best.hi);
-      else
-        flight.test.run(block, flight.ray, flight.best.hi);
-      hits_[hits] = {&flight, &block};
-      hits += flight.test.maybe != 0;
-      // The leaf's remaining blocks are pushed as a separate leaf.
-      const int top = flight.stack.size;
-      flight.stack.child[top] = next + (1U << 3U) - 1;
-      flight.stack.near[top] = 0;
-      flight.stack.size += (next & 7U) != 0;
-      next = pop<kAny>(flight.stack, flight.best.hi);
-    });
+    // Always inlined, because GCC would not do so by itself, which makes traversal a tenth slower.
+    for_each(
+        leaves_, [&](Flight & flight, ChildRef & next) __attribute__((always_inline)) {
+          const TriangleBlock& block = scope(flight).blocks[first_entry(next)];
+          if (in_instance(flight))
+            flight.test.run(block, flight.inner, flight.ray.t_begin, flight.best.hi);
+          else
+            flight.test.run(block, flight.ray, flight.best.hi);
+          hits_[hits] = {&flight, &block};
+          hits += flight.test.maybe != 0;
+          // The leaf's remaining blocks are pushed as a separate leaf.
+          const int top = flight.stack.size;
+          flight.stack.child[top] = next + (1U << 3U) - 1;
+          flight.stack.near[top] = 0;
+          flight.stack.size += (next & 7U) != 0;
+          next = pop<kAny>(flight.stack, flight.best.hi);
+        });
     for (int k = 0; k < hits; ++k) {
       const auto [flight, block] = hits_[k];
       if (in_instance(*flight))
