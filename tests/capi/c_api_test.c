@@ -1,5 +1,7 @@
 /* Uses the C API as a C program does. The first argument is the folder of scenes, the second one
  * a folder for output. */
+#include "check.h"
+
 #include <microtrace/microtrace.h>
 #include <microtrace/version.h>
 
@@ -9,16 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static int failures = 0;
-
-#define CHECK(condition)                                                           \
-  do {                                                                             \
-    if (!(condition)) {                                                            \
-      printf("%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, mt_last_error()); \
-      ++failures;                                                                  \
-    }                                                                              \
-  } while (0)
 
 /* The cube [-1, 1]^3. Each vertex has five numbers: position and texture coordinates. */
 static float vertices[8][5];

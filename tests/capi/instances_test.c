@@ -1,4 +1,6 @@
 /* Makes scenes of instances by the C API and compares them with scenes of transformed copies. */
+#include "check.h"
+
 #include <microtrace/microtrace.h>
 
 #include <math.h>
@@ -6,16 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static int failures = 0;
-
-#define CHECK(condition)                                                           \
-  do {                                                                             \
-    if (!(condition)) {                                                            \
-      printf("%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, mt_last_error()); \
-      ++failures;                                                                  \
-    }                                                                              \
-  } while (0)
 
 enum { kRings = 24, kSides = 32, kVertices = kRings * kSides, kTriangles = 2 * kVertices };
 
