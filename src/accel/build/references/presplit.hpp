@@ -16,8 +16,8 @@ namespace microtrace::build {
 }
 
 /// Appends references to pieces and shrinks the boxes of the original references. Adds none if all
-/// triangles have about the same size. The boxes of a triangle's
-/// pieces together contain every point of the triangle.
+/// triangles have about the same size. The boxes of a triangle's pieces together contain every
+/// point of the triangle.
 void presplit(PageVector<Reference>& references, const Primitives& primitives);
 
 /// Cuts the part of a triangle within `box` by an axis-aligned plane. Returns a box for each side
