@@ -89,15 +89,14 @@ Material material_of(const mt_mesh& from, const Mesh& mesh) {
           .emissive = Vec3(e[0], e[1], e[2])};
 }
 
-/// A mesh whose arrays later copies share, and its material.
-struct Shared {
+struct ColoredMesh {
   Mesh mesh;
   Material material;
 };
 
-std::vector<Shared> meshes_of(const mt_mesh* meshes, std::size_t count) {
+std::vector<ColoredMesh> meshes_of(const mt_mesh* meshes, std::size_t count) {
   if (count > 0) require(meshes, "meshes");
-  std::vector<Shared> result;
+  std::vector<ColoredMesh> result;
   result.reserve(count);
   // The caller may have been compiled with an older header, in which mt_mesh is smaller.
   const auto* bytes = reinterpret_cast<const unsigned char*>(meshes);
@@ -189,7 +188,7 @@ mt_status mt_scene_from_instances(const mt_mesh* meshes, size_t mesh_count,
   return guarded([&] {
     if (instance_count > 0) require(instances, "instances");
     require(scene, "scene");
-    std::vector<capi::Shared> shared = capi::meshes_of(meshes, mesh_count);
+    std::vector<capi::ColoredMesh> shared = capi::meshes_of(meshes, mesh_count);
     LoadedScene loaded;
     for (auto& [mesh, material] : shared) {
       mesh.share();

@@ -6,6 +6,7 @@
 #include "io/load_clock.hpp"
 #include "io/scene_json/scene.hpp"
 #include "scene/mesh/mesh_memory.hpp"
+#include "scene/mesh/shared_meshes.hpp"
 
 #include <microtrace/io.hpp>
 
@@ -13,7 +14,6 @@
 #include <array>
 #include <optional>
 #include <unistd.h>
-#include <unordered_set>
 #include <utility>
 #include <variant>
 
@@ -90,11 +90,10 @@ std::uint64_t memory_of_shared(const Scene& scene) {
     result += std::visit([](const auto& samples) { return samples.size() * sizeof(samples[0]); },
                          image->samples);
   }
-  std::unordered_set<const Vec3*> known;
+  SharedMeshes known;
   for (const Object& object : scene.objects) {
     const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh != nullptr && mesh->placement && known.insert(mesh->positions.data()).second)
-      result += memory_of(*mesh);
+    if (mesh != nullptr && mesh->placement && known.add(*mesh)) result += memory_of(*mesh);
   }
   return result;
 }

@@ -2,6 +2,7 @@
 #include "scene/kernels/dispatch.hpp"
 #include "scene/kernels/perspective.hpp"
 #include "scene/lens/lens.hpp"
+#include "scene/math/magnitudes.hpp"
 #include "scene/math/trigonometry.hpp"
 
 #include <microtrace/camera.hpp>
@@ -224,13 +225,13 @@ std::optional<Frustum> RayGenerator::frustum(double x0, double y0, double x1, do
                  .middle = toward_pixel<1>(corner_, right_, down_, (x0 + x1) / 2, (y0 + y1) / 2),
                  .half_right = right_ * ((x1 - x0) / 2),
                  .half_down = down_ * ((y1 - y0) / 2)};
-  // Sums of magnitudes are upper bounds of lengths.
-  const auto sum = [](const DVec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
   const double length = glm::length(result.middle),
-               radius = sum(result.half_right) + sum(result.half_down);
+               radius = sum_of_magnitudes(result.half_right) + sum_of_magnitudes(result.half_down);
   // Each sum of three terms and its terms have at most four roundings.
-  result.error = 0x1p-50 * (sum(corner_) + sum(right_) * std::max(-x0, x1) +
-                            sum(down_) * std::max(-y0, y1) + sum(result.middle) + radius);
+  result.error =
+      0x1p-50 *
+      (sum_of_magnitudes(corner_) + sum_of_magnitudes(right_) * std::max(-x0, x1) +
+       sum_of_magnitudes(down_) * std::max(-y0, y1) + sum_of_magnitudes(result.middle) + radius);
   if (!(result.error < 0x1p-30 * (length - radius))) return std::nullopt;
   result.greatest_t_min = depth_.near * (length + radius) * (1 + kSlack);
   result.least_t_max = depth_.far * (length - radius) * (1 - kSlack);

@@ -1,4 +1,5 @@
 #include "float_environment.hpp"
+#include "scene/math/magnitudes.hpp"
 #include "scene/math/trigonometry.hpp"
 #include "scene/support.hpp"
 #include "scene/translation_to_origin.hpp"
@@ -57,7 +58,7 @@ void Framing::add(const DVec3& point) {
 
 bool Framing::holds(const DVec3& point) const {
   // The margin exceeds the rounding errors of all extents.
-  const double margin = 0x1p-44 * (std::abs(point.x) + std::abs(point.y) + std::abs(point.z));
+  const double margin = 0x1p-44 * sum_of_magnitudes(point);
   const double back = glm::dot(back_, point);
   bool holds = back + margin <= reach_;
   for (const Sides& sides : sides_) {

@@ -1,6 +1,8 @@
 #pragma once
 /// The directions of all rays in a frustum, as float64 intervals.
 
+#include "scene/math/magnitudes.hpp"
+
 #include <microtrace/frustum.hpp>
 #include <microtrace/math.hpp>
 
@@ -26,7 +28,8 @@ class Directions {
         right_(frustum.half_right),
         down_(frustum.half_down),
         size_(glm::abs(middle_) + glm::abs(right_) + glm::abs(down_) + frustum.error / kSlack) {
-    const double middle = glm::length(middle_), radius = sum(right_) + sum(down_);
+    const double middle = glm::length(middle_),
+                 radius = sum_of_magnitudes(right_) + sum_of_magnitudes(down_);
     lengths_ = {.lo = (middle - radius) * (1 - kSlack), .hi = (middle + radius) * (1 + kSlack)};
   }
 
@@ -46,8 +49,10 @@ class Directions {
   /// lower bound exceeds `enough`, the bounds may be wider than necessary.
   [[nodiscard]] Interval cross_length(const DVec3& m, double enough) const {
     const DVec3 right = glm::cross(right_, m), down = glm::cross(down_, m);
-    const double middle = glm::length(glm::cross(middle_, m)), error = kSlack * sum(size_) * sum(m);
-    const Interval wide = around(middle, sum(right) + sum(down) + error);
+    const double middle = glm::length(glm::cross(middle_, m)),
+                 error = kSlack * sum_of_magnitudes(size_) * sum_of_magnitudes(m);
+    const Interval wide =
+        around(middle, sum_of_magnitudes(right) + sum_of_magnitudes(down) + error);
     if (wide.lo > enough) return wide;
     const Interval bounds = around(middle, glm::length(right) + glm::length(down) + error);
     return {.lo = std::max(bounds.lo, 0.0), .hi = bounds.hi};
@@ -56,9 +61,6 @@ class Directions {
   [[nodiscard]] const Interval& lengths() const { return lengths_; }
 
  private:
-  /// The sum of the components' magnitudes, an upper bound of the length.
-  static double sum(const DVec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
   /// Twice the error of a ray's direction, which leaves room for the roundings of float64.
   static constexpr double kSlack = 0x1p-22;
 
