@@ -10,12 +10,14 @@ out fields with more triangles. --plot draws times and memory over the number of
 import argparse
 import json
 import pathlib
-import struct
 import subprocess
+import sys
 import tempfile
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "light"))
+import files
 import plot_scaling
 
 SIDE = 223  # of the grid of the sphere's vertices; two triangles a cell
@@ -38,8 +40,8 @@ def sphere():
     radius = 1 + 0.15 * np.sin(7 * u) * np.sin(9 * v) + 0.05 * np.sin(31 * u) * np.sin(37 * v)
     first = np.arange(SIDE)[:, None] * (SIDE + 1) + np.arange(SIDE)
     corners = [first, first + SIDE + 2, first + 1, first, first + SIDE + 1, first + SIDE + 2]
-    return ((direction * radius[..., None]).reshape(-1, 3).astype("<f4"),
-            direction.reshape(-1, 3).astype("<f4"), np.stack(corners, -1).reshape(-1).astype("<u4"))
+    return {"positions": (direction * radius[..., None]).reshape(-1, 3),
+            "normals": direction.reshape(-1, 3), "triangles": np.stack(corners, -1)}
 
 
 def nodes(count):
@@ -63,35 +65,15 @@ def nodes(count):
 
 
 def write(path, count):
-    positions, normals, indices = sphere()
-    parts = [positions.tobytes(), normals.tobytes(), indices.tobytes()]
-    offsets = np.cumsum([0] + [len(part) for part in parts[:-1]]).tolist()
-    asset = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": list(range(count + 1))}],
-        "nodes": nodes(count),
-        "cameras": [{"type": "perspective",
-                     "perspective": {"yfov": 0.6, "znear": 0.1, "aspectRatio": 16 / 9}}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2,
-                                    "material": 0}]}],
-        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.4, 0.6, 0.3, 1],
-                                                "metallicFactor": 0, "roughnessFactor": 0.7}}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3",
-             "min": positions.min(0).tolist(), "max": positions.max(0).tolist()},
-            {"bufferView": 1, "componentType": 5126, "count": len(normals), "type": "VEC3"},
-            {"bufferView": 2, "componentType": 5125, "count": len(indices), "type": "SCALAR"}],
-        "bufferViews": [{"buffer": 0, "byteOffset": offset, "byteLength": len(part)}
-                        for offset, part in zip(offsets, parts)],
-        "buffers": [{"byteLength": sum(map(len, parts))}],
-    }
-    text = json.dumps(asset).encode()
-    text += b" " * (-len(text) % 4)
-    data = b"".join(parts)
-    header = struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data))
-    path.write_bytes(header + struct.pack("<I4s", len(text), b"JSON") + text +
-                     struct.pack("<I4s", len(data), b"BIN\0") + data)
+    glb = files.Glb()
+    material = glb.add("materials", {"pbrMetallicRoughness": {
+        "baseColorFactor": [0.4, 0.6, 0.3, 1], "metallicFactor": 0, "roughnessFactor": 0.7}})
+    glb.add("meshes", {"primitives": [glb.primitive(sphere(), material)]})
+    glb.add("cameras", {"type": "perspective",
+                        "perspective": {"yfov": 0.6, "znear": 0.1, "aspectRatio": 16 / 9}})
+    for node in nodes(count):
+        glb.add_node(**node)
+    glb.write(path)
 
 
 def measure(program, scene, picture, sharing):
