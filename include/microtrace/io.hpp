@@ -118,9 +118,9 @@ class MICROTRACE_EXPORT SceneFile {
   /// options.time. Throws Error as load_scene() does.
   [[nodiscard]] LoadedScene at(std::optional<double> time);
 
-  /// Releases the memory that only further calls of the other functions would need. They must not
-  /// be called afterwards. The memory of the latest scene is still counted.
-  void close();
+  /// Does the same, and releases the memory that only further scenes would need. No other function
+  /// may be called afterwards. The memory of the scene is still counted.
+  [[nodiscard]] LoadedScene last(std::optional<double> time);
 
  private:
   struct MICROTRACE_HIDDEN Content;

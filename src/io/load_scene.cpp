@@ -123,7 +123,6 @@ struct SceneFile::Content {
   std::filesystem::path folder;
   LoadOptions options;
   MemoryAccount memory, memory_of_scene;
-  std::uint64_t shared = 0;  ///< part of `memory` that the latest scene uses
   std::string bytes{};
   std::optional<Reader> reader{};
 };
@@ -167,16 +166,18 @@ LoadedScene SceneFile::at(std::optional<double> time) {
   options.time = time;
   content_->memory_of_scene.clear();
   const MemoryScope scope(content_->memory_of_scene);
-  LoadedScene result = read(*content_->reader, content_->folder, options);
-  if (result.format == SceneFormat::gltf) content_->shared = memory_of_shared(result.scene);
-  return result;
+  return read(*content_->reader, content_->folder, options);
 }
 
-void SceneFile::close() {
+LoadedScene SceneFile::last(std::optional<double> time) {
+  LoadedScene result = at(time);
   content_->reader.reset();
   std::string().swap(content_->bytes);
   content_->memory.clear();
-  content_->memory.take(content_->shared, "the images and shared meshes of a scene");
+  if (result.format == SceneFormat::gltf)
+    content_->memory.take(memory_of_shared(result.scene),
+                          "the images and shared meshes of a scene");
+  return result;
 }
 
 LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {

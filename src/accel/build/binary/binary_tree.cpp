@@ -45,6 +45,7 @@ CentroidBoxes partition(std::span<const Reference> from, const BinMapping& mappi
   CentroidBoxes boxes;
   std::array<Reference*, 2> to{left, right};
   for (const Reference& r : from) {
+    prefetch_after(r);
     const bool goes_right = mapping(r)[split.axis] > split.last_bin;
     *to[goes_right]++ = r;
     const Float4 c = centroid(r.box);

@@ -29,6 +29,7 @@ void Bins::clear(int bins) {
 
 void Bins::add(std::span<const Reference> references, const BinMapping& mapping) {
   for (const Reference& r : references) {
+    prefetch_after(r);
     const Int4 bin = mapping(r);
     const Load load{.count = 1, .weight = r.weight()};
     for (int axis = 0; axis < 3; ++axis) {

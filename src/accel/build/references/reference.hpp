@@ -33,6 +33,12 @@ struct Reference {
 };
 static_assert(sizeof(Reference) == 32);
 
+/// Prefetches a reference that a loop over references will reach soon. The processor's own
+/// prefetchers don't help at the begin of each of the many small sets.
+inline void prefetch_after(const Reference& r) {
+  __builtin_prefetch(&r + 32);
+}
+
 struct References {
   PageVector<Reference> bounded;
   /// A hash for each bounded reference, equal for triangles with the same vertices.
