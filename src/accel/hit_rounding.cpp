@@ -14,10 +14,19 @@ class CornerFinder {
  public:
   explicit CornerFinder(const Primitives& primitives) : primitives_(&primitives) {}
 
+  /// Prefetch the data that put() reads: first a triangle's indices, then its vertices.
+  void fetch_indices(PrimitiveId id) {
+    if (finds_mesh(id)) __builtin_prefetch(&mesh_->triangles[id - first_]);
+  }
+  void fetch_vertices(PrimitiveId id) {
+    if (!finds_mesh(id)) return;
+    for (const std::uint32_t corner : mesh_->triangles[id - first_])
+      __builtin_prefetch(&mesh_->positions[corner]);
+  }
+
   /// Returns false if the primitive is not a mesh triangle.
   bool put(PrimitiveId id, HitBatch& batch, std::size_t i) {
-    if (id < first_ || id >= last_) look_up(id);
-    if (mesh_ == nullptr) return false;
+    if (!finds_mesh(id)) return false;
     const Triangle triangle = triangle_of(*mesh_, id - first_);
     put(batch.a, i, triangle.a);
     put(batch.b, i, triangle.b);
@@ -26,6 +35,11 @@ class CornerFinder {
   }
 
  private:
+  bool finds_mesh(PrimitiveId id) {
+    if (id < first_ || id >= last_) look_up(id);
+    return mesh_ != nullptr;
+  }
+
   static void put(float (&column)[3][kHitBatch], std::size_t i, const Vec3& v) {
     column[0][i] = v.x;
     column[1][i] = v.y;
@@ -74,10 +88,17 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
   std::copy_n(found.d, 3, batch.d);
   CornerFinder corners(primitives);
   std::uint64_t triangles = 0;  // one bit per ray that hits a mesh triangle
-  for (std::size_t i = 0; i < count; ++i) {
-    if (found.ids[i] != kNoPrimitive && corners.put(found.ids[i], batch, i))
-      triangles |= std::uint64_t{1} << i;
-  }
+  const auto for_each_hit = [&](const auto& f) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (found.ids[i] != kNoPrimitive) f(i, found.ids[i]);
+    }
+  };
+  // The hits of incoherent rays are far apart in memory.
+  for_each_hit([&](std::size_t, PrimitiveId id) { corners.fetch_indices(id); });
+  for_each_hit([&](std::size_t, PrimitiveId id) { corners.fetch_vertices(id); });
+  for_each_hit([&](std::size_t i, PrimitiveId id) {
+    if (corners.put(id, batch, i)) triangles |= std::uint64_t{1} << i;
+  });
   const std::uint64_t certain = triangles != 0 ? kernels.round_t(batch) & triangles : 0;
   const auto resolve = [&](std::size_t i, PrimitiveId id) {
     return HitResolver(primitives, found.rays[i]).hit(id);
