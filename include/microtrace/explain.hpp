@@ -183,6 +183,11 @@ struct ExplainOptions {
 [[nodiscard]] MICROTRACE_EXPORT Explanation explain(const PreparedScene& scene, const Ray& ray,
                                                     const ExplainOptions& options = {});
 
+/// Like the other function, but for a ray in scene coordinates, see PreparedScene::in_scene.
+[[nodiscard]] MICROTRACE_EXPORT Explanation explain_in_scene(const PreparedScene& scene,
+                                                             const Ray& ray,
+                                                             const ExplainOptions& options = {});
+
 /// Explains the ray of a picture through the pixel coordinates (x, y), with (0, 0) in the upper
 /// left corner of the picture and (0.5, 0.5) at the center of the first pixel. At the center of a
 /// pixel, the visible hit has the values that render_aovs() stores. The camera is in scene

@@ -96,7 +96,7 @@ typedef struct mt_mesh {
 MT_API void mt_mesh_init(mt_mesh* mesh);
 
 /* Makes a scene whose object i is meshes[i]. On success, *scene is a new scene, which the caller
- * must release. Returns MT_INVALID_SCENE if an index is out of range or a position is not finite.
+ * must release. Returns MT_INVALID_SCENE if an index is out of range or a number is not finite.
  * `threads` is as in mt_load_options. */
 MT_API mt_status mt_scene_from_meshes(const mt_mesh* meshes, size_t count, uint32_t threads,
                                       mt_scene** scene);

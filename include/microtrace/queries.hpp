@@ -63,6 +63,11 @@ MICROTRACE_EXPORT void count_crossings(const PreparedScene& scene, std::span<con
                                        std::span<std::uint32_t> counts,
                                        const QueryOptions& options = {});
 
+/// Like the other function, but for rays in scene coordinates, as for Bvh::intersect.
+MICROTRACE_EXPORT void count_crossings(const Bvh& bvh, std::span<const Ray> rays,
+                                       std::span<std::uint32_t> counts,
+                                       const QueryOptions& options = {});
+
 /// The position of a point relative to a solid.
 enum class Location : std::uint8_t { outside, boundary, inside };
 

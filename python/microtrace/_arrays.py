@@ -102,7 +102,7 @@ def as_real(value: Any, what: str, low: float, high: float) -> float:
 
 def as_size(value: Any) -> tuple[int, int]:
     """Returns width and height in pixels."""
-    if len(value) != 2:
+    if np.shape(value) != (2,):
         raise ValueError(f"size must be a width and a height, not {value!r}")
     width, height = (as_integer(v, "size", 1, 65536) for v in value)
     return width, height

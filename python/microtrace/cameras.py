@@ -1,4 +1,5 @@
-"""Cameras in world space."""
+"""Cameras. Positions are relative to Scene.origin, which is 0 except for files whose content is far
+from the origin of world space."""
 
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ Vector = tuple[float, float, float]
 
 @dataclass(eq=False, repr=False, kw_only=True)
 class _Posed(Brief):
-    position: Vector = (0.0, 0.0, 0.0)  #: world space
+    position: Vector = (0.0, 0.0, 0.0)  #: relative to Scene.origin
     direction: Vector = (0.0, 0.0, -1.0)  #: viewing direction; any length
     up: Vector = (0.0, 1.0, 0.0)  #: need not be perpendicular to direction
     name: str = ""
@@ -124,7 +125,8 @@ def cameras(
     Args:
         K: (3, 3) or (N, 3, 3) matrices with fx and fy on the diagonal and cx and cy in the last
             column, in pixels, without skew.
-        T: (4, 4) or (N, 4, 4) rigid transformations.
+        T: (4, 4) or (N, 4, 4) rigid transformations. World space is that of positions relative to
+            Scene.origin.
         size: width and height of the images to which K belongs.
         convention: with "opencv", T maps world space to camera space, the camera looks along +z, +y
             points down, and pixel centers have integer coordinates. With "opengl", T maps camera

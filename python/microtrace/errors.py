@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import warnings
 from collections.abc import Iterable
@@ -62,6 +63,9 @@ class SceneWarning(UserWarning):
         super().__init__(diagnostic.text)
         self.diagnostic = diagnostic
 
+    def __reduce__(self) -> tuple[type[SceneWarning], tuple[Diagnostic]]:
+        return (type(self), (self.diagnostic,))
+
 
 #: Maps the program's exit codes to exceptions for the same failures.
 _CLASSES: dict[int, type[Error]] = {
@@ -77,11 +81,22 @@ _CLASSES: dict[int, type[Error]] = {
 def error_of(code: int, diagnostic: Diagnostic) -> Error:
     """Makes the exception that corresponds to an exit code of the program."""
     kind = _CLASSES.get(code, Error)
-    if kind is FileError and not Path(diagnostic.file).exists():
+    if kind is FileError and _is_missing(diagnostic.file):
         kind = MissingFileError
     error = kind(diagnostic.text)
     error.diagnostic = diagnostic
     return error
+
+
+def _is_missing(path: str) -> bool:
+    """Returns False also if the path can't be examined."""
+    try:
+        os.stat(path)
+    except (FileNotFoundError, NotADirectoryError):
+        return True
+    except (OSError, ValueError):
+        return False
+    return False
 
 
 def warn_caller(warning: Warning) -> None:

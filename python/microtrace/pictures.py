@@ -71,9 +71,16 @@ class Picture(Mapping[str, Array]):
     """
 
     def __init__(
-        self, arrays: dict[str, Array], exposure: float, tone_map: str, denoiser: str = ""
+        self,
+        arrays: dict[str, Array],
+        exposure: float,
+        tone_map: str,
+        denoiser: str = "",
+        *,
+        is_stack: bool,
     ) -> None:
         self._arrays = arrays
+        self._is_stack = is_stack
         self._exposure = exposure
         self._tone_map = tone_map
         self._denoiser = denoiser
@@ -144,13 +151,20 @@ class Picture(Mapping[str, Array]):
         _core.save(self["color"], *settings, self._denoiser, rest, path)
 
     def one(self, index: int) -> Picture:
-        """Returns one picture of a stack, by its camera's index. The arrays are views."""
+        """Returns one picture of a stack, by its camera's index. The arrays are views.
+
+        Raises:
+            ValueError: this is not a stack.
+            IndexError: there is no such picture.
+        """
+        if not self._is_stack:
+            raise ValueError("this is a single picture, not a stack")
         arrays = {k: v[index] for k, v in self.items()}
-        return Picture(arrays, self._exposure, self._tone_map, self._denoiser)
+        return Picture(arrays, self._exposure, self._tone_map, self._denoiser, is_stack=False)
 
     def _display(self, exposure: float | None, tone_map: str | None) -> tuple[float, str]:
         return (
-            self._exposure if exposure is None else exposure,
+            self._exposure if exposure is None else as_real(exposure, "exposure", -64, 64),
             self._tone_map if tone_map is None else tone_map,
         )
 
@@ -180,12 +194,17 @@ def frame(
         elevation: degrees above the horizontal, in [-90, 90].
         vertical_fov_degrees: vertical field of view in degrees, in (0, 180).
         size: width and height; default: the scene's.
+
+    Raises:
+        ValueError: a number is out of range.
     """
+    if not 0 < as_real(vertical_fov_degrees, "vertical_fov_degrees", 0, 180) < 180:
+        raise ValueError("vertical_fov_degrees must be in (0, 180)")
     prepared = _prepared(scene)
     camera: PerspectiveCamera = _core.frame(
         prepared._core,
-        float(azimuth),
-        float(elevation),
+        as_real(azimuth, "azimuth", -1e9, 1e9),
+        as_real(elevation, "elevation", -90, 90),
         float(vertical_fov_degrees),
         prepared._core.size if size is None else as_size(size),
     )
@@ -322,11 +341,13 @@ def render(
         if array.shape[-1] == 1:
             array = array[..., 0]
         arrays[name] = array if is_stack else array[0]
-    return Picture(arrays, stops, tone_map, denoiser)
+    return Picture(arrays, stops, tone_map, denoiser, is_stack=is_stack)
 
 
 def _ground_arguments(ground: bool | float, integrator: str) -> dict[str, float | None] | None:
     """Returns the core's description of the ground: None, or its height, which may be None."""
+    if isinstance(ground, np.bool_):
+        ground = bool(ground)
     if ground is False:
         return None
     if integrator != "path":

@@ -330,6 +330,11 @@ def _rays(
         numbers = np.asarray(values)
         if numbers.dtype.kind not in "fiu":
             raise TypeError(f"{what} must contain real numbers, not {numbers.dtype}")
-        return np.ascontiguousarray(np.broadcast_to(numbers, shape), np.float32).reshape(-1)
+        try:
+            each = np.broadcast_to(numbers, shape)
+        except ValueError:
+            raise ValueError(f"{what} must broadcast to {shape}, not {numbers.shape}") from None
+        with np.errstate(over="ignore"):
+            return np.ascontiguousarray(each, np.float32).reshape(-1)
 
     return flat, shape, end(t_min, "t_min"), end(t_max, "t_max")

@@ -65,8 +65,8 @@ class Scene(Brief):
             normals: (V, 3) numbers, unit length.
             uv: (V, 2) numbers. (0, 0) is the upper left corner of a texture's image, and v points
                 down.
-            colors: (V, 3) or (V, 4), either linear Rec. 709 numbers in [0, 1] or 8-bit sRGB
-                integers.
+            colors: (V, 3) or (V, 4), either linear Rec. 709 numbers in [0, 1] or sRGB integers of
+                the type uint8.
             material: default: Material().
             transform: (4, 4) matrix from the mesh's space to world space, applied in float64 with
                 results rounded once. If it mirrors the mesh, the winding is reversed, so front
@@ -74,7 +74,8 @@ class Scene(Brief):
             name: any text.
 
         Raises:
-            ValueError: an array has a wrong shape, or an index is negative.
+            ValueError: an array has a wrong shape, an index is negative, or a color is not in
+                [0, 1].
             TypeError: an array has a wrong type of numbers.
         """
         mesh = Mesh(
@@ -221,6 +222,8 @@ def linear_colors(colors: Any) -> npt.NDArray[Any]:
         result = np.concatenate([table[array[:, :3]], array[:, 3:] / np.float32(255)], axis=1)
     else:
         result = as_numbers(array, "colors", array.shape[1])
+        if not ((result >= 0) & (result <= 1)).all():
+            raise ValueError("colors must be in [0, 1], or 8-bit sRGB integers of the type uint8")
     if result.shape[1] == 3:
         result = np.concatenate([result, np.ones((len(result), 1), result.dtype)], axis=1)
     return result

@@ -20,7 +20,7 @@ FloatArray = npt.NDArray[np.floating[Any]]
 class Mesh(Brief):
     """Indexed triangles. Arrays are not read until the scene is prepared."""
 
-    vertices: npt.ArrayLike  #: (V, 3), world space
+    vertices: npt.ArrayLike  #: (V, 3), world space, or the mesh's own if Object.placement is set
     faces: npt.ArrayLike  #: (F, 3) integers, counterclockwise as seen from the front
     normals: npt.ArrayLike | None = None  #: (V, 3), unit length or zero; None for flat shading
     tangents: npt.ArrayLike | None = None  #: (V, 4): unit tangent, and handedness 1 or -1
@@ -79,7 +79,8 @@ class Object(Brief):
     """A shape with one material.
 
     Objects may have the same Mesh and different placements. The mesh and its tree are then stored
-    once, and all results have the bits of those with transformed copies.
+    once, and all results have the bits of those with transformed copies. load() returns such
+    objects for files that would have more than 2^20 triangles otherwise.
     """
 
     shape: Shape

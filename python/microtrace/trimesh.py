@@ -137,12 +137,17 @@ class RayMeshIntersector:
         counts = ~self._is_edge_on(rays[found.ray, 3:], found.primitive)
         t, tri, ray = found.t[counts], found.primitive[counts], found.ray[counts]
         is_new = np.ones(len(t), bool)
-        same = 1 + np.nonzero((ray[1:] == ray[:-1]) & (t[1:] == t[:-1]))[0]
-        corners = self._vertices[np.asarray(self.mesh.faces)[tri[same]]]
-        previous = self._vertices[np.asarray(self.mesh.faces)[tri[same - 1]]]
-        # Compares positions, because vertices with different indices coincide at seams.
-        equal = (corners[:, :, None] == previous[:, None]).all(axis=3)
-        is_new[same] = ~equal.any(axis=(1, 2))
+        begins = np.ones(len(t), bool)
+        begins[1:] = (ray[1:] != ray[:-1]) | (t[1:] != t[:-1])
+        # The number of hits of the same ray, at the same t, before each hit.
+        before = np.arange(len(t)) - np.nonzero(begins)[0][np.cumsum(begins) - 1]
+        for lag in range(1, int(before.max(initial=0)) + 1):
+            at = np.nonzero(before >= lag)[0]
+            corners = self._vertices[np.asarray(self.mesh.faces)[tri[at]]]
+            earlier = self._vertices[np.asarray(self.mesh.faces)[tri[at - lag]]]
+            # Compares positions, because vertices with different indices coincide at seams.
+            equal = (corners[:, :, None] == earlier[:, None]).all(axis=3)
+            is_new[at] &= ~equal.any(axis=(1, 2))
         return t[is_new], tri[is_new], ray[is_new]
 
     def _nearest(self, rays: Array) -> tuple[Array, Array, Array]:

@@ -155,8 +155,10 @@ PixelFilter filter_named(const std::string& name) {
 /// Calls a Python function with the finished fraction. It cancels the rendering by returning False.
 class Progress {
  public:
-  Progress(nb::object function, const std::function<bool()>& cancel)
-      : function_(std::move(function)), cancel_(cancel) {}
+  /// The arguments must outlive this object. Threads without Python's lock must not copy `function`,
+  /// because counting references needs the lock.
+  Progress(const nb::object& function, const std::function<bool()>& cancel)
+      : function_(function), cancel_(cancel) {}
 
   bool operator()(double share) {
     if (cancel_()) return false;
@@ -164,7 +166,7 @@ class Progress {
     const nb::gil_scoped_acquire acquire;
     try {
       const nb::object result = function_(share);
-      return result.is_none() || nb::cast<bool>(result);
+      return result.is_none() || is_true(result);
     } catch (nb::python_error&) {
       failure_ = std::current_exception();
       return false;
@@ -177,7 +179,13 @@ class Progress {
   }
 
  private:
-  nb::object function_;
+  static bool is_true(const nb::object& value) {
+    const int result = PyObject_IsTrue(value.ptr());
+    if (result < 0) nb::raise_python_error();
+    return result != 0;
+  }
+
+  const nb::object& function_;
   const std::function<bool()>& cancel_;
   std::exception_ptr failure_;
 };

@@ -44,10 +44,10 @@ void occluded(const Prepared& self, const AnyArray& array, const nb::object& t_m
 std::string explain_ray(const Prepared& self, const AnyArray& array, const nb::object& t_min,
                         const nb::object& t_max, std::size_t max_hits, std::size_t max_misses) {
   std::vector<Ray> rays;
-  Rays(array, t_min, t_max, DVec3(0)).get(0, 1, rays);
+  Rays(array, t_min, t_max, self.scene.scene().origin).get(0, 1, rays);
   const nb::gil_scoped_release release;
   return explanation_json(
-      explain(self.scene, rays.front(), {.max_hits = max_hits, .max_misses = max_misses}));
+      explain_in_scene(self.scene, rays.front(), {.max_hits = max_hits, .max_misses = max_misses}));
 }
 
 /// All hits of rays. The rays are processed in pieces, so that they are not copied all at once.
@@ -61,7 +61,7 @@ QueryOptions cancelable(unsigned threads, const std::function<bool()>& cancel) {
   return {.threads = threads, .progress = [&cancel](double) { return !cancel(); }};
 }
 
-/// Calls f(rays, first, options) for consecutive pieces of the rays, in world space.
+/// Calls f(rays, first, options) for consecutive pieces of the rays, in scene coordinates.
 template <class F>
 void for_each_piece(const Rays& source, unsigned threads, const F& f) {
   constexpr std::size_t kPiece = 1 << 20;
@@ -77,10 +77,10 @@ void for_each_piece(const Rays& source, unsigned threads, const F& f) {
 std::unique_ptr<AllHits> intersect_all(const Prepared& self, const AnyArray& array,
                                        const nb::object& t_min, const nb::object& t_max,
                                        unsigned threads) {
-  const Rays source(array, t_min, t_max, DVec3(0));
+  const Rays source(array, t_min, t_max, self.scene.scene().origin);
   auto result = std::make_unique<AllHits>();
   for_each_piece(source, threads, [&](const auto& rays, std::size_t, const QueryOptions& options) {
-    const RayHits found = intersect_all(self.scene, rays, options);
+    const RayHits found = intersect_all(self.scene.bvh(), rays, options);
     const std::uint64_t before = result->hits.size();
     for (std::size_t i = 1; i < found.offsets.size(); ++i)
       result->offsets.push_back(before + found.offsets[i]);
@@ -117,11 +117,12 @@ void fill_all(const Prepared& self, const AllHits& all, const AnyArray& array,
 void count_crossings(const Prepared& self, const AnyArray& array, const nb::object& t_min,
                      const nb::object& t_max,
                      const nb::ndarray<std::uint32_t, nb::c_contig>& counts, unsigned threads) {
-  const Rays source(array, t_min, t_max, DVec3(0));
+  const Rays source(array, t_min, t_max, self.scene.scene().origin);
   std::uint32_t* to = counts.data();
   for_each_piece(source, threads,
                  [&](const auto& rays, std::size_t first, const QueryOptions& options) {
-                   count_crossings(self.scene, rays, std::span(to + first, rays.size()), options);
+                   count_crossings(self.scene.bvh(), rays, std::span(to + first, rays.size()),
+                                   options);
                  });
 }
 

@@ -36,16 +36,28 @@ class Places {
   /// list.
   template <class F>
   std::uint32_t of(const nb::handle& item, const F& add) {
-    const auto next = static_cast<std::uint32_t>(places_.size());
-    const auto [at, is_new] = places_.try_emplace(item.ptr(), next);
-    if (is_new) {
-      kept_.push_back(nb::borrow(item));  // keeps other objects from getting its address
-      add();
-    }
+    const auto [at, is_new] = places_.try_emplace(item.ptr(), next_);
+    if (is_new) append(item, add);
     return at->second;
   }
 
+  /// Appends an object of a list. If it has a place already, it keeps that place, but the objects
+  /// after it get those of the list.
+  template <class F>
+  void add(const nb::handle& item, const F& add) {
+    places_.try_emplace(item.ptr(), next_);
+    append(item, add);
+  }
+
  private:
+  template <class F>
+  void append(const nb::handle& item, const F& add) {
+    kept_.push_back(nb::borrow(item));  // keeps other objects from getting its address
+    ++next_;
+    add();
+  }
+
+  std::uint32_t next_ = 0;
   std::unordered_map<PyObject*, std::uint32_t> places_;
   std::vector<nb::object> kept_;
 };
@@ -61,7 +73,8 @@ class Reader {
       read(background, scene_.background);
     field_ = "size";
     read(source_.attr("size"), scene_.size);
-    for (const nb::handle material : source_.attr("materials")) place_of_material(material);
+    for (const nb::handle material : source_.attr("materials"))
+      materials_.add(material, [&] { read_material(material); });
     for (const nb::handle object : source_.attr("objects")) add_object(object);
     for (const nb::handle light : source_.attr("lights")) add_light(light);
     for (const nb::handle camera : source_.attr("cameras")) {
@@ -155,10 +168,12 @@ class Reader {
   }
 
   std::uint32_t place_of_material(const nb::handle& material) {
-    return materials_.of(material, [&] {
-      if (!is<Material>(material)) wrong("a material", material);
-      scene_.materials.push_back(fields_of<Material>(material));
-    });
+    return materials_.of(material, [&] { read_material(material); });
+  }
+
+  void read_material(const nb::handle& material) {
+    if (!is<Material>(material)) wrong("a material", material);
+    scene_.materials.push_back(fields_of<Material>(material));
   }
 
   TextureUse texture_use_of(const nb::handle& value) {

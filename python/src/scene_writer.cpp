@@ -5,9 +5,12 @@
 #include "arrays.hpp"
 #include "fields.hpp"
 #include "images.hpp"
+#include "scene/mesh/shared_meshes.hpp"
 
 #include <array>
+#include <nanobind/stl/array.h>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace microtrace::python {
@@ -116,8 +119,14 @@ class Writer {
 
   nb::object object_of(const Object& object) {
     nb::dict arguments;
-    arguments["shape"] =
-        std::visit([&](const auto& shape) { return shape_of(shape); }, object.shape);
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh != nullptr && mesh->placement) {
+      arguments["shape"] = shared_mesh_of(*mesh);
+      arguments["placement"] = matrix_of(*mesh->placement);
+    } else {
+      arguments["shape"] =
+          std::visit([&](const auto& shape) { return shape_of(shape); }, object.shape);
+    }
     arguments["material"] = object.material ? materials_[*object.material] : nb::none();
     arguments["name"] = object.name;
     return make("shapes", "Object", arguments);
@@ -133,7 +142,6 @@ class Writer {
     return make("shapes", "Quadric", arguments);
   }
   nb::object shape_of(const Mesh& mesh) {
-    if (mesh.placement) return shape_of(baked(mesh));
     nb::list sets;
     for (const auto& set : mesh.uv_sets) sets.append(to_python(set));
     nb::dict arguments;
@@ -145,6 +153,28 @@ class Writer {
     arguments["colors"] = to_python(mesh.colors);
     arguments["segments"] = to_python(mesh.segments);
     return make("shapes", "Mesh", arguments);
+  }
+
+  /// Returns one object for all meshes that share their arrays.
+  nb::object shared_mesh_of(const Mesh& mesh) {
+    std::size_t& place = places_of_meshes_.try_emplace(MeshKey(mesh), meshes_.size()).first->second;
+    const bool is_known = place < meshes_.size() && have_same_arrays(*meshes_[place].mesh, mesh);
+    if (!is_known) {
+      place = meshes_.size();
+      meshes_.push_back({&mesh, shape_of(mesh)});
+    }
+    return meshes_[place].object;
+  }
+
+  /// Returns the rows of a (3, 4) matrix.
+  static nb::object matrix_of(const Placement& placement) {
+    std::array<std::array<double, 4>, 3> rows;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column)
+        rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
+            placement.column(column)[row];
+    }
+    return nb::cast(rows);
   }
 
   nb::object light_of(const NamedLight& light) {
@@ -172,8 +202,15 @@ class Writer {
     return make("lights", "Environment", arguments);
   }
 
+  struct KnownMesh {
+    const Mesh* mesh;
+    nb::object object;
+  };
+
   const Scene& scene_;
   std::vector<nb::object> images_, textures_, materials_;
+  std::vector<KnownMesh> meshes_;  // placed ones
+  std::unordered_map<MeshKey, std::size_t, MeshKey::Hash> places_of_meshes_;  // in meshes_
 };
 
 }  // namespace

@@ -231,6 +231,33 @@ def test_wrong_arguments():
         mt.render(prepared, size=SIZE, spp=1)["depth"]
 
 
+def test_results_of_progress_functions():
+    scene = mt.Scene()
+    scene.add_sphere()
+    for result in (None, True, np.True_, "text", 7):
+        mt.render(scene, size=(8, 8), aovs=["depth"], progress=lambda share, r=result: r)
+    for result in (False, np.False_):
+        with pytest.raises(mt.CanceledError):
+            mt.render(scene, size=(8, 8), aovs=["depth"], progress=lambda share, r=result: r)
+
+
+def test_ranges_of_arguments():
+    scene = mt.Scene()
+    scene.add_sphere()
+    picture = mt.render(scene, mt.look_at((0, 0, 5), (0, 0, 0)), (4, 4))
+    for wrong in (
+        lambda: picture.one(0),
+        lambda: picture.tonemap(exposure=np.nan),
+        lambda: mt.frame(scene, azimuth=np.nan),
+        lambda: mt.frame(scene, elevation=91),
+        lambda: mt.frame(scene, vertical_fov_degrees=0),
+        lambda: mt.render(scene, size=5),
+        lambda: scene.prepare().intersect(np.ones((3, 6)), t_min=[1, 2]),
+    ):
+        with pytest.raises(ValueError):
+            wrong()
+
+
 def test_small_numbers_of_numpy():
     prepared = mt.load(KNOT).prepare()
     camera = mt.PerspectiveCamera(position=np.array([0, 0, 9.0]), vertical_fov=np.float32(1))

@@ -254,6 +254,27 @@ def test_interrupt(rng):
     assert time.monotonic() - start < 30  # stopped before the end, typically 0.1 s after the signal
 
 
+def test_origins_of_scenes():
+    scene = mt.Scene(origin=(1e6, 0, 0))
+    scene.add_mesh([[0.1, 0, 0], [0.12, 0, 0], [0.11, 1, 0]], [[0, 1, 2]])
+    prepared = scene.prepare()
+    # In float32, world space has a spacing of 1/16 here.
+    rays = np.zeros((100, 6))
+    rays[:, 0] = 1e6 + np.linspace(0.09, 0.13, 100)
+    rays[:, 1:3] = 0.3, 5
+    rays[:, 5] = -1
+    fields = ("t", "object", "position")
+    hits = prepared.intersect(rays, fields=fields)
+    found = hits.object >= 0
+    assert 0 < found.sum() < 100
+    every = prepared.intersect_all(rays, fields=fields)
+    assert np.array_equal(every.ray, np.nonzero(found)[0])
+    assert np.array_equal(every.t, hits.t[found])
+    assert np.array_equal(every.position, hits.position[found])
+    assert np.array_equal(prepared.count_crossings(rays), found)
+    assert [len(prepared.explain(ray)["hits"]) for ray in rays] == found.tolist()
+
+
 def test_explanations() -> None:
     scene = mt.Scene()
     scene.add_sphere([0, 0, 0], 1, name="ball")

@@ -220,6 +220,9 @@ def test_vertex_colors():
     scene.add_mesh(*triangle, colors=np.full((3, 3), 188, np.uint8))
     colors = scene.prepare().scene.objects[0].shape.colors
     assert np.allclose(colors[0], [0.5028865, 0.5028865, 0.5028865, 1])
+    for wrong in ([[255, 128, 0]] * 3, np.full((3, 3), 1.5), np.full((3, 3), np.nan)):
+        with pytest.raises(ValueError, match="colors must be in"):
+            scene.add_mesh(*triangle, colors=wrong)
     scene.add_mesh(*triangle, colors=np.full((3, 4), 0.25))
     assert scene.prepare().scene.objects[1].shape.colors[0].tolist() == [0.25] * 4
 
@@ -241,8 +244,46 @@ def test_objects_share_a_mesh():
     assert np.isfinite(expected.t).sum() > 200
     for name in ("t", "object", "primitive"):
         assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
-    back = shared.prepare().scene.objects[1].shape
-    assert np.array_equal(back.vertices, copied.objects[1].shape.vertices)
+
+
+def test_shared_meshes_survive():
+    mesh = mt.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    matrices = [np.hstack([np.eye(3) * (k + 1), [[k], [0], [0.1]]]) for k in range(3)]
+    scene = mt.Scene(objects=[mt.Object(mesh, placement=m) for m in matrices])
+    scene.add_mesh(mesh.vertices, mesh.faces)
+    back = scene.prepare().scene
+    shapes = [each.shape for each in back.objects]
+    assert shapes[0] is shapes[1] is shapes[2] and shapes[3] is not shapes[0]
+    assert np.array_equal(shapes[0].vertices, mesh.vertices)
+    assert back.objects[3].placement is None
+    for each, matrix in zip(back.objects, matrices, strict=False):
+        assert np.array_equal(each.placement, matrix)
+    again = pickle.loads(pickle.dumps(scene.prepare()))
+    rays = np.random.default_rng(1).normal(size=(500, 6))
+    hits, expected = again.intersect(rays), scene.prepare().intersect(rays)
+    assert np.isfinite(hits.t).any() and np.array_equal(hits.t, expected.t)
+
+
+def test_materials_may_occur_twice():
+    red, blue = mt.Material(name="red"), mt.Material(name="blue")
+    scene = mt.Scene(materials=[red, red, blue], background=(0, 0, 0))
+    scene.add_sphere(material=blue)
+    scene.add_sphere(center=(9, 0, 0), material=red)
+    prepared = scene.prepare()
+    camera = mt.look_at((0, 0, 5), (0, 0, 0), vertical_fov_degrees=20)
+    assert mt.render(prepared, camera, (1, 1), aovs=["material"]).material[0, 0] == 3
+    assert [each.name for each in prepared.scene.materials] == ["red", "red", "blue"]
+
+
+@pytest.mark.parametrize("array", ["normals", "tangents", "colors", "uv"])
+@pytest.mark.parametrize("number", [np.nan, np.inf])
+def test_attributes_must_be_finite(array, number):
+    width = {"normals": 3, "tangents": 4, "colors": 4, "uv": 2}[array]
+    values = np.zeros((3, width), np.float32)
+    values[1, 0] = number
+    mesh = mt.Mesh(np.eye(3), [[0, 1, 2]], **{array: [values] if array == "uv" else values})
+    with pytest.raises(mt.SceneError, match="finite"):
+        mt.Scene(objects=[mt.Object(mesh)]).prepare()
 
 
 @pytest.mark.parametrize(
@@ -333,6 +374,18 @@ def test_warnings_of_files(tmp_path):
         mt.load(path)
     assert warned[0].filename == __file__
     assert warned[0].message.diagnostic.file == str(path)
+
+
+def test_paths_that_cannot_be_examined():
+    with pytest.raises(mt.FileError) as caught:
+        mt.load("a" * 300 + ".glb")
+    assert isinstance(caught.value, OSError) and not isinstance(caught.value, FileNotFoundError)
+
+
+def test_warnings_can_be_pickled():
+    diagnostic = mt.Diagnostic("a.gltf", 1, 2, "/nodes", "odd", "a.gltf:1:2: odd")
+    warning = pickle.loads(pickle.dumps(mt.SceneWarning(diagnostic)))
+    assert warning.diagnostic == diagnostic and str(warning) == diagnostic.text
 
 
 def test_no_leaks():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import itertools
 import pickle
 import subprocess
 import sys
@@ -77,6 +78,16 @@ def test_hits_at_one_point_count_once():
     directions = np.tile([0.0, 0.0, 1.0], (len(origins), 1))
     _, ray = RayMeshIntersector(mesh).intersects_id(origins, directions)
     assert np.array_equal(np.bincount(ray, minlength=len(origins)), np.full(len(origins), 2))
+
+
+def test_order_of_faces_makes_no_difference():
+    small = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]])
+    vertices = np.concatenate([small, 2 * small - [1, 1, 0]])
+    faces = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])
+    for order in itertools.permutations(range(4)):
+        mesh = trimesh.Trimesh(vertices, faces[list(order)], process=False)
+        hits = RayMeshIntersector(mesh).intersects_location([[1, 1, 5]], [[0, 0, -1]])
+        assert len(hits[0]) == 2, order
 
 
 def test_close_surfaces_count_twice():

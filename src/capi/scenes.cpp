@@ -48,6 +48,8 @@ Array<T> array_of(const Number* first, std::size_t count, std::size_t stride, bo
 }
 
 Array<Corners> triangles_of(const mt_mesh& mesh, bool borrow) {
+  if (mesh.triangle_count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::limit, "", "a mesh has 2^32 triangles or more");
   if (mesh.indices != nullptr)
     return array_of<Corners>(mesh.indices, mesh.triangle_count, mesh.index_stride, borrow);
   if (mesh.short_indices != nullptr)

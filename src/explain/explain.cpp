@@ -184,11 +184,15 @@ std::shared_ptr<const PreparedScene::Content> content_of(const PreparedScene& sc
 }  // namespace
 
 Explanation explain(const PreparedScene& scene, const Ray& ray, const ExplainOptions& options) {
+  return explain_in_scene(scene, scene.in_scene(ray), options);
+}
+
+Explanation explain_in_scene(const PreparedScene& scene, const Ray& ray,
+                             const ExplainOptions& options) {
   const FloatEnvironment environment;
   // The differentials of this camera are so small that textures are looked up at points.
   const OrthographicCamera points{.height = std::numeric_limits<double>::min()};
-  return explain_in({content_of(scene), points, {.width = 1, .height = 1}}, scene.in_scene(ray),
-                    options);
+  return explain_in({content_of(scene), points, {.width = 1, .height = 1}}, ray, options);
 }
 
 Explanation explain(const PreparedScene& scene, const Camera& camera, ImageSize size, double x,

@@ -161,6 +161,22 @@ RayHits find_all(const Bvh& bvh, std::size_t rays, const RayOf& ray, const Query
   });
 }
 
+/// Calls ray(i) for the rays in scene coordinates.
+template <class RayOf>
+void count_all(const Bvh& bvh, std::span<std::uint32_t> counts, const RayOf& ray,
+               const QueryOptions& options) {
+  const FloatEnvironment environment;
+  const QueryKernels& kernels = kQueryKernels.best();
+  limiting_memory([&] {
+    for_each_run(counts.size(), kRaysOfRun, options,
+                 [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
+                   HitFinder finder(bvh, kernels);
+                   for (std::uint64_t i = first; i < last; ++i)
+                     counts[i] = finder.count(ray(i), poll);
+                 });
+  });
+}
+
 }  // namespace
 
 RayHits intersect_all(const PreparedScene& scene, std::span<const Ray> rays,
@@ -177,16 +193,15 @@ RayHits intersect_all(const Bvh& bvh, std::span<const Ray> rays, const QueryOpti
 void count_crossings(const PreparedScene& scene, std::span<const Ray> rays,
                      std::span<std::uint32_t> counts, const QueryOptions& options) {
   assert(rays.size() == counts.size());
-  const FloatEnvironment environment;
-  const QueryKernels& kernels = kQueryKernels.best();
-  limiting_memory([&] {
-    for_each_run(rays.size(), kRaysOfRun, options,
-                 [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
-                   HitFinder finder(scene.bvh(), kernels);
-                   for (std::uint64_t i = first; i < last; ++i)
-                     counts[i] = finder.count(scene.in_scene(rays[i]), poll);
-                 });
-  });
+  count_all(
+      scene.bvh(), counts, [&](std::uint64_t i) { return scene.in_scene(rays[i]); }, options);
+}
+
+void count_crossings(const Bvh& bvh, std::span<const Ray> rays, std::span<std::uint32_t> counts,
+                     const QueryOptions& options) {
+  assert(rays.size() == counts.size());
+  count_all(
+      bvh, counts, [&](std::uint64_t i) { return rays[i]; }, options);
 }
 
 }  // namespace microtrace

@@ -38,11 +38,11 @@ bool is_finite(float x) {
 bool is_finite(double x) {
   return std::abs(x) < kFloat32Bound;
 }
-bool is_finite(const Vec3& v) {
-  return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
-}
-bool is_finite(const DVec3& v) {
-  return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
+template <glm::length_t n, typename Number>
+bool is_finite(const glm::vec<n, Number>& v) {
+  for (glm::length_t i = 0; i < n; ++i)
+    if (!is_finite(v[i])) return false;
+  return true;
 }
 
 template <typename T>
@@ -92,6 +92,14 @@ Rule check(const Quadric& q) {
   return broken("coefficients", "at least one of a to i must not be zero");
 }
 
+template <class T>
+Rule all_finite(const char* field, const Array<T>& values) {
+  for (const T& value : values) {
+    if (Rule rule = finite(field, value)) return rule;
+  }
+  return {};
+}
+
 /// Checks vertex attributes other than positions.
 Rule check_attributes(const Mesh& mesh) {
   const auto fits = [&](const auto& values) {
@@ -103,8 +111,10 @@ Rule check_attributes(const Mesh& mesh) {
   if (!fits(mesh.colors)) return broken("colors", message);
   for (const auto& set : mesh.uv_sets) {
     if (!fits(set)) return broken("uv_sets", message);
+    if (Rule rule = all_finite("uv_sets", set)) return rule;
   }
-  return {};
+  return first(all_finite("normals", mesh.normals), all_finite("tangents", mesh.tangents),
+               all_finite("colors", mesh.colors));
 }
 
 template <typename Primitive>
@@ -127,9 +137,7 @@ Rule check_primitives(const Mesh& mesh) {
 
 Rule check(const Mesh& mesh) {
   if (Rule rule = check_attributes(mesh)) return rule;
-  for (const Vec3& position : mesh.positions) {
-    if (Rule rule = finite("positions", position)) return rule;
-  }
+  if (Rule rule = all_finite("positions", mesh.positions)) return rule;
   return check_primitives(mesh);
 }
 
