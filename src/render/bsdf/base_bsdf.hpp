@@ -78,13 +78,15 @@ class BaseBsdf {
   struct Left {
     F f1, diffuse;
   };
+  /// The Fresnel term of the dielectric for directions with cosine z.
+  [[nodiscard]] GreatestSchlick<N> dielectric_at(const F& z) const;
   /// The fraction of light that the dielectric's microfacets do not reflect.
-  [[nodiscard]] F unreflected(const Albedo<N>& albedo) const {
-    return 1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
+  [[nodiscard]] F unreflected(const GreatestSchlick<N>& dielectric, const Albedo<N>& albedo) const {
+    return 1 - dielectric.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
   }
-  [[nodiscard]] Left left(const Albedo<N>& albedo) const;
-  [[nodiscard]] Left left(const Albedo<N>& albedo, const F& transmittance,
-                          const Albedo<N>& deficit) const;
+  [[nodiscard]] Left left(const GreatestSchlick<N>& dielectric, const Albedo<N>& albedo) const;
+  [[nodiscard]] Left left(const GreatestSchlick<N>& dielectric, const Albedo<N>& albedo,
+                          const F& transmittance, const Albedo<N>& deficit) const;
   [[nodiscard]] Left left(const Coating<N>* coating, const V& w) const;
   [[nodiscard]] Left mean_left(const Coating<N>* coating) const;
   /// The factors of wi. `shares` are those of the microfacet whose normal is the half vector.
@@ -113,11 +115,13 @@ class BaseBsdf {
   [[nodiscard]] Shares shares(const F& cosine) const;
   [[nodiscard]] Shares spec_shares(const F& cosine) const;
   [[nodiscard]] V reflectance(const Schlick<N>& schlick, const F& cosine) const;
+  /// The reflectance of metal and dielectric combined.
+  [[nodiscard]] V reflectance(const F& cosine) const;
   /// The probability of sampling reflection, given a sampled microfacet normal.
   [[nodiscard]] F reflection_probability(const Shares& shares) const;
-  /// Sets the reflectances below the film, and returns the film's approximate reflectance at normal
-  /// incidence.
-  V add_film(const Schlick<N>& schlick);
+  /// Sets the dielectric's reflectance with the film, and returns the approximate reflectance of
+  /// metal and dielectric combined at normal incidence.
+  V add_film(const F& roughness);
   /// The transmittance of the coating for wo or wi, whichever is smaller.
   [[nodiscard]] F transmittance(const Coating<N>& coating, const V& wi) const {
     return smaller_of(transmittance_, coating.transmittance(wi));
@@ -136,6 +140,11 @@ class BaseBsdf {
   F transmittance_;  ///< transmittance of the coating
   Schlick<N> dielectric_, metal_;
   ThinFilm<N> film_;
+  /// The dielectric with its film reflects like Schlick's term with these reflectances at normal
+  /// incidence, for equidistant cosines in [0, 1].
+  static constexpr int kFilmNodes = 9;
+  F film_f0_[kFilmNodes];
+  F least_square_, on_facets_;  ///< see dielectric_at()
   F metallic_, eta_;
   V diffuse_below_, multiple_below_, transmitted_;
   RefractionLoss<N> loss_;

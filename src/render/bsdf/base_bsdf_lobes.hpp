@@ -18,6 +18,15 @@ auto BaseBsdf<N, Parts>::reflectance(const Schlick<N>& schlick, const F& cosine)
 }
 
 template <int N, class Parts>
+auto BaseBsdf<N, Parts>::reflectance(const F& cosine) const -> V {
+  if (!features_.has_film) return specular_(cosine);
+  // With a film, reflectance is not linear in the reflectance below the film.
+  if (!any(metallic_ > 0)) return reflectance(dielectric_, cosine);
+  if (!any(metallic_ < 1)) return reflectance(metal_, cosine);
+  return mixed(reflectance(dielectric_, cosine), reflectance(metal_, cosine), metallic_);
+}
+
+template <int N, class Parts>
 auto BaseBsdf<N, Parts>::incidence(const F& cosine) const -> Incidence {
   if (!features_.refracts) return {cosine, F{}};
   const F square = 1 - (1 - cosine * cosine) / (eta_ * eta_);
@@ -29,20 +38,18 @@ auto BaseBsdf<N, Parts>::incidence(const F& cosine) const -> Incidence {
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
   if (features_.is_spec) return spec_shares(angle_cosine);
-  if (!features_.transmits) return {reflectance(specular_, angle_cosine), all3<N>(0), F{}};
+  if (!features_.transmits) return {reflectance(angle_cosine), all3<N>(0), F{}};
   const auto [cosine, is_total] = incidence(angle_cosine);
   const auto is_opaque = is_zero(transmitted_);
   V reflected = reflectance(dielectric_, cosine);
   const V entering = complement(reflected) * transmitted_;
   const auto is_mixed = (metallic_ != 0) & negated(is_opaque);
   if (any(is_mixed)) {
-    // With a film, the reflectance must be computed separately for metal and dielectric: it is not
-    // linear in the reflectance below the film.
     const V both = features_.has_film ? mixed(reflected, reflectance(metal_, cosine), metallic_)
                                       : specular_(cosine);
     reflected = select3(is_mixed, both, reflected);
   }
-  if (any(is_opaque)) reflected = select3(is_opaque, reflectance(specular_, cosine), reflected);
+  if (any(is_opaque)) reflected = select3(is_opaque, reflectance(cosine), reflected);
   const V none = all3<N>(0);
   return {select3(is_total != 0, all3<N>(1), reflected),
           select3((is_total != 0) | is_opaque, none, entering), F{}};

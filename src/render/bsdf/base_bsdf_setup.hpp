@@ -25,7 +25,7 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   }
   if (features_.has_film) {
     film_ = p.film;
-    f0 = add_film(specular_);
+    f0 = add_film(p.roughness);
   }
   const Albedo<N> white_mean = albedo_.mean(), there = albedo_.at(wo);
   multiply_reflected_ = multiple_scattering(greatest_.f0, greatest_.f90, white_mean.f1);
@@ -120,56 +120,88 @@ void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
 }
 
 template <int N, class Parts>
-auto BaseBsdf<N, Parts>::add_film(const Schlick<N>& schlick) -> V {
-  // The film's reflectance oscillates with the angle. The base receives the energy that the film
-  // doesn't reflect at the brightest of these angles, minus a margin for the angles in between.
-  constexpr float kCosines[] = {1.0F, 0.8F, 0.6F, 0.42F, 0.28F, 0.17F, 0.09F, 0.03F};
-  constexpr int kOfMean = 4;
-  constexpr float kMargin = 0.05F;
-  const auto is_mixed = metallic_ < 1;
-  V mean = all3<N>(0);
-  F bound = greatest_.f0;
-  for (int k = 0; k < (any(is_mixed) ? 8 : kOfMean); ++k) {
-    const F cosine = all<N>(kCosines[k]), edge = all<N>(0) + Schlick<N>::edge(cosine);
-    const V f = thin_film_reflectance<N>(cosine, film_, schlick.f0);
-    const V head_on = greatest_components(V((f - edge) / (1 - edge)), all3<N>(0));
-    if (k < kOfMean) mean += head_on * all<N>(1.0F / kOfMean);
-    const F greatest = greatest_component(head_on) + kMargin;
-    bound = ((k < kOfMean) | is_mixed) ? larger_of(bound, greatest) : bound;
+auto BaseBsdf<N, Parts>::add_film(const F& roughness) -> V {
+  const F alpha = roughness * roughness;
+  const F least = 2.6F * alpha / (1 + 1.25F * alpha);
+  least_square_ = least * least;
+  on_facets_ = (1 - 0.23F * alpha / (1 + 1.2F * alpha)) / square_root<N>(1 + least_square_);
+  constexpr int kFirstOfMean = 3;
+  constexpr float kWeight = 1.0F / (kFilmNodes - kFirstOfMean);
+  constexpr auto of_mean = hat_weights<1, kFilmNodes>();
+  // Film and Schlick's term reach 1 at grazing angles, so the first node is slightly above.
+  constexpr float kLeastCosine = 0.03F;
+  const bool has_metal = any(metallic_ > 0), has_dielectric = any(metallic_ < 1);
+  const F without = greatest_.f0;
+  V dielectric = all3<N>(0), metal = all3<N>(0);
+  greatest_.f0 = F{};
+  for (int k = 0; k < kFilmNodes; ++k) {
+    const F cosine = all<N>(k == 0 ? kLeastCosine : static_cast<float>(k) / (kFilmNodes - 1));
+    const F edge = Schlick<N>::edge(cosine);
+    const auto f0_with_film = [&](const Schlick<N>& below) {
+      const V f = thin_film_reflectance<N>(cosine, film_, below.f0);
+      return greatest_components(V((f - edge) / (1 - edge)), all3<N>(0));
+    };
+    film_f0_[k] = without;
+    if (has_dielectric) {
+      const V f0 = f0_with_film(dielectric_);
+      if (k >= kFirstOfMean) dielectric += kWeight * f0;
+      film_f0_[k] += film_.share * (greatest_component(f0) - without);
+    }
+    greatest_.f0 += of_mean.value[k] * film_f0_[k];
+    if (has_metal && k >= kFirstOfMean) metal += kWeight * f0_with_film(metal_);
   }
-  greatest_.f0 += film_.share * (smaller_of(bound, all<N>(1)) - greatest_.f0);
   greatest_.f90 += film_.share * (1 - greatest_.f90);
-  return mixed(schlick.f0, mean, film_.share);
+  const V both =
+      select3(metallic_ > 0, select3(metallic_ < 1, mixed(dielectric, metal, metallic_), metal),
+              dielectric);
+  return mixed(specular_.f0, both, film_.share);
 }
 
 template <int N, class Parts>
-auto BaseBsdf<N, Parts>::left(const Albedo<N>& albedo) const -> Left {
-  return {1 - albedo.f1, larger_of(unreflected(albedo), F{})};
+auto BaseBsdf<N, Parts>::dielectric_at(const F& z) const -> GreatestSchlick<N> {
+  if (!features_.has_film) return greatest_;
+  // The mean cosine of the angle of incidence on the facets that reflect light from this direction,
+  // fitted to sampled GGX facets with an error of at most 0.04.
+  const F cosine = on_facets_ * square_root<N>(z * z + least_square_);
+  const Cell<N> cell(cosine * (kFilmNodes - 1), kFilmNodes);
+  return {cell.mixed(picked<N>(film_f0_, cell.first), picked<N>(film_f0_ + 1, cell.first)),
+          greatest_.f90};
 }
 
 template <int N, class Parts>
-auto BaseBsdf<N, Parts>::left(const Albedo<N>& albedo, const F& transmittance,
-                              const Albedo<N>& deficit) const -> Left {
-  const F returned = greatest_.albedo(deficit) - multiply_reflected_ * deficit.f1;
+auto BaseBsdf<N, Parts>::left(const GreatestSchlick<N>& dielectric, const Albedo<N>& albedo) const
+    -> Left {
+  return {1 - albedo.f1, larger_of(unreflected(dielectric, albedo), F{})};
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::left(const GreatestSchlick<N>& dielectric, const Albedo<N>& albedo,
+                              const F& transmittance, const Albedo<N>& deficit) const -> Left {
+  const F returned = dielectric.albedo(deficit) - multiply_reflected_ * deficit.f1;
   return {transmittance * (1 - albedo.f1) + deficit.f1,
-          larger_of(F(transmittance * unreflected(albedo) + returned), F{})};
+          larger_of(F(transmittance * unreflected(dielectric, albedo) + returned), F{})};
 }
 
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::left(const Coating<N>* coating, const V& w) const -> Left {
   const Albedo<N> albedo = albedo_.at(w);
-  if (coating == nullptr) return left(albedo);
-  return left(albedo, coating->transmittance(w), coating->deficit(w.z));
+  const GreatestSchlick<N> dielectric = dielectric_at(w.z);
+  if (coating == nullptr) return left(dielectric, albedo);
+  return left(dielectric, albedo, coating->transmittance(w), coating->deficit(w.z));
 }
 
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::mean_left(const Coating<N>* coating) const -> Left {
-  if (coating == nullptr) return left(albedo_.mean());
+  if (coating == nullptr && !features_.has_film) return left(greatest_, albedo_.mean());
   Left sum{};
   for (int k = 0; k < static_cast<int>(kCoatingNodes); ++k) {
     const F z = all<N>(kTables.coating_node[k]);
+    const GreatestSchlick<N> dielectric = dielectric_at(z);
+    const Albedo<N> albedo = albedo_.around(z);
     const Left part =
-        left(albedo_.around(z), coating->transmittance_at_node(k), coating->deficit(z));
+        coating == nullptr
+            ? left(dielectric, albedo)
+            : left(dielectric, albedo, coating->transmittance_at_node(k), coating->deficit(z));
     sum.f1 += kTables.coating_weight[k] * part.f1;
     sum.diffuse += kTables.coating_weight[k] * part.diffuse;
   }
