@@ -4,8 +4,8 @@
 #include <microtrace/camera.hpp>
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
+#include <microtrace/prepared_scene.hpp>
 #include <microtrace/render.hpp>
-#include <microtrace/scene.hpp>
 
 namespace microtrace {
 
@@ -20,7 +20,7 @@ struct FilmView {
 /// Examines a film that render() returned for the same arguments, with the exposure and tone map of
 /// film.display. If colors alone don't show whether pixels have the background's color or show a
 /// surface, traces rays through the pixel centers. Throws Error as render() does.
-[[nodiscard]] MICROTRACE_EXPORT FilmView view_of(const Film& film, const Scene& scene,
+[[nodiscard]] MICROTRACE_EXPORT FilmView view_of(const Film& film, const PreparedScene& prepared,
                                                  const Camera& camera,
                                                  const RenderOptions& options);
 

@@ -173,6 +173,7 @@ MICROTRACE_EXPORT void save_image(const Film& film, const std::filesystem::path&
 struct FilmContents {
   bool alpha = false;
   bool channels = false;
+  std::optional<ImageSize> size{};  ///< if known
 };
 
 /// Throws the Error with which save_image() would fail at once for this path and a film with these

@@ -155,8 +155,8 @@ PixelFilter filter_named(const std::string& name) {
 /// Calls a Python function with the finished fraction. It cancels the rendering by returning False.
 class Progress {
  public:
-  /// The arguments must outlive this object. Threads without Python's lock must not copy `function`,
-  /// because counting references needs the lock.
+  /// The arguments must outlive this object. Threads without Python's lock must not copy
+  /// `function`, because counting references needs the lock.
   Progress(const nb::object& function, const std::function<bool()>& cancel)
       : function_(function), cancel_(cancel) {}
 

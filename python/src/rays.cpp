@@ -119,11 +119,10 @@ void count_crossings(const Prepared& self, const AnyArray& array, const nb::obje
                      const nb::ndarray<std::uint32_t, nb::c_contig>& counts, unsigned threads) {
   const Rays source(array, t_min, t_max, self.scene.scene().origin);
   std::uint32_t* to = counts.data();
-  for_each_piece(source, threads,
-                 [&](const auto& rays, std::size_t first, const QueryOptions& options) {
-                   count_crossings(self.scene.bvh(), rays, std::span(to + first, rays.size()),
-                                   options);
-                 });
+  for_each_piece(
+      source, threads, [&](const auto& rays, std::size_t first, const QueryOptions& options) {
+        count_crossings(self.scene.bvh(), rays, std::span(to + first, rays.size()), options);
+      });
 }
 
 }  // namespace

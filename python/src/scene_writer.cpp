@@ -209,7 +209,7 @@ class Writer {
 
   const Scene& scene_;
   std::vector<nb::object> images_, textures_, materials_;
-  std::vector<KnownMesh> meshes_;  // placed ones
+  std::vector<KnownMesh> meshes_;                                             // placed ones
   std::unordered_map<MeshKey, std::size_t, MeshKey::Hash> places_of_meshes_;  // in meshes_
 };
 

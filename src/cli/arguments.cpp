@@ -71,6 +71,10 @@ void apply_defaults(Arguments& a, SceneFormat format) {
   }
   if (a.path.ground && !a.is_path_traced())
     refuse_usage("--ground needs path tracing, which casts shadows; use --integrator path");
+  if (a.path.guiding && !a.is_path_traced())
+    refuse_usage("--guiding needs path tracing; use --integrator path");
+  if (a.path.bsdf == BsdfModel::spec && !a.is_path_traced())
+    refuse_usage("--bsdf needs path tracing; use --integrator path");
   if (a.denoises && !a.is_path_traced())
     refuse_usage(
         "--denoise needs path tracing, because other pictures have no noise; use "

@@ -70,8 +70,7 @@ int render_pictures(cli::Arguments arguments) {
   cli::Tables tables;
   for (std::uint32_t index = 0; index < sequence.count(); ++index) {
     const bool is_last = !arguments.frames && !arguments.shutter;
-    LoadedScene loaded =
-        is_last ? file.last(sequence.time(index)) : file.at(sequence.time(index));
+    LoadedScene loaded = is_last ? file.last(sequence.time(index)) : file.at(sequence.time(index));
     Scene& scene = loaded.scene;
     if (index == 0) {
       environment = cli::load_environment(arguments.environment, loaded.warnings, memory);

@@ -42,13 +42,15 @@ bool is_most(std::size_t black, std::size_t lit) {
 }
 
 /// For each pixel, true if a surface is visible at the pixel's center.
-std::vector<bool> occupied(const Scene& scene, const Camera& camera, ImageSize whole,
+std::vector<bool> occupied(const PreparedScene& prepared, const Camera& camera, ImageSize whole,
                            const RenderOptions& options) {
   RenderOptions exact;
   exact.threads = options.threads;
+  exact.run_threads = options.run_threads;
+  exact.memory = options.memory;
   exact.crop = options.crop;
   exact.aovs = {Aov::id};
-  const Film ids = render(scene, camera, whole, exact);
+  const Film ids = render(prepared, camera, whole, exact);
   const auto& instances = std::get<std::vector<std::uint32_t>>(ids.channels[0].values);
   std::vector<bool> result(instances.size());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = instances[i] != 0;
@@ -76,8 +78,9 @@ void for_each_run_of_colors(const Film& film, F&& f) {
 
 }  // namespace
 
-FilmView view_of(const Film& film, const Scene& scene, const Camera& camera,
+FilmView view_of(const Film& film, const PreparedScene& prepared, const Camera& camera,
                  const RenderOptions& options) {
+  const Scene& scene = prepared.scene();
   const Blackness is_black(film.display);
   const bool shows_all = scene.environment && scene.environment->is_background &&
                          options.integrator != nullptr && options.integrator->is_random();
@@ -99,7 +102,7 @@ FilmView view_of(const Film& film, const Scene& scene, const Camera& camera,
   });
   const bool are_black = film.has_alpha() || is_black(scene.background);
   if (doubtful > 0 && (lit + black == 0 || (are_black && is_most(black + doubtful, lit)))) {
-    const std::vector<bool> is_there = occupied(scene, camera, film.whole, options);
+    const std::vector<bool> is_there = occupied(prepared, camera, film.whole, options);
     for_each_run_of_colors(film, [&](std::size_t first, const Vec3& color, std::size_t count) {
       if (color_of_nothing != color) return;
       for (std::size_t i = first; i < first + count; ++i)

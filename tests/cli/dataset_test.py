@@ -191,6 +191,12 @@ class Dataset(ProgramTest):
         (self.folder / "mine/letter.txt").write_text("mine")
         self.assertIn("not a data set", self.dataset(*options, output="mine", code=2))
 
+    def test_options_that_leave_the_files_alone_may_differ(self):
+        self.dataset("--views", "orbit:2", *SMALL)
+        whole = self.contents()
+        self.dataset("--views", "orbit:2", *SMALL, "--instances", "copy", "--allow-path", ".", "-t", "1")
+        self.assertEqual(self.contents(), whole)
+
     def test_wrong_views(self):
         for view, message in (({"camera": {"type": "fish"}}, "fish"), ({"time": -1}, "/views/0/time"),
                               ({"name": "../x"}, "/views/0/name"), ({"sizes": 1}, "sizes"),

@@ -65,6 +65,9 @@ class Environments(ProgramTest):
             self.assert_refused(2, "--env-intensity", "--env", "studio", "--env-intensity", factor)
         for integrator in ("flat", "normal"):
             self.assert_refused(2, "--integrator path", "--background", "env", "--integrator", integrator)
+            for option in (["--guiding"], ["--bsdf", "spec"], ["--ground"]):
+                self.assert_refused(2, "--integrator path", *option, "--integrator", integrator)
+        self.assert_refused(2, "--ground", "--ground=1e39", "--integrator", "path")
 
     def test_environment_as_background(self):
         corner = lambda *options: self.picture(CUBE, "--size", "40x30", "--integrator", "path", "--spp", 1, "--tonemap",

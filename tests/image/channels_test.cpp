@@ -130,6 +130,40 @@ TEST(Alpha, FormatsWithoutAlphaAreUsageErrors) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
+// Beyond these sizes, encoders fail after the rendering, write damaged files, or end the process.
+TEST(Formats, RefuseSizesThatTheyCannotHold) {
+  struct Case {
+    const char* name;
+    ImageSize size;
+    bool fits;
+  };
+  const Folder folder;
+  for (const Case& c : {Case{"a.jpg", {65500, 1}, true}, Case{"a.jpg", {65501, 1}, false},
+                        Case{"a.webp", {1, 16383}, true}, Case{"a.webp", {1, 16384}, false},
+                        Case{"a.tga", {65535, 1}, true}, Case{"a.tga", {65536, 1}, false},
+                        Case{"a.gif", {65536, 1}, false}, Case{"a.png", {65536, 1}, true},
+                        Case{"a.ppm", {65536, 1}, true}, Case{"a.jp2", {31, 320}, false},
+                        Case{"a.jp2", {32, 32}, true}}) {
+    const auto fails = [&](const auto& f) {
+      try {
+        f();
+        return false;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
+        return true;
+      }
+    };
+    EXPECT_EQ(fails([&] { check_image_path(folder / c.name, {.size = c.size}); }), !c.fits)
+        << c.name;
+    EXPECT_EQ(fails([&] { save_image(Film(c.size), folder / c.name); }), !c.fits) << c.name;
+    std::error_code missing;
+    const auto bytes = std::filesystem::file_size(folder / c.name, missing);
+    EXPECT_EQ(!missing && bytes > 0, c.fits) << c.name << ' ' << c.size.width;
+    std::filesystem::remove(folder / c.name);
+  }
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
 /// Returns a film with additional channels. Their numbers are exact only in float32 or only in
 /// uint32.
 Film with_channels(Film::Alpha alpha, ImageSize size = {19, 131}) {

@@ -102,8 +102,8 @@ TEST(Furnace, FilmsKeepTheLightOfTheBrightestChannel) {
           const double without = furnace(p, {}, wo, 1U << 14U).x;
           p.film = film;
           const double with = brightest(furnace(p, {}, wo, 1U << 14U));
-          const std::string place = std::to_string(metallic) + " " + std::to_string(film.ior) + " " +
-                                    std::to_string(roughness) + " " + std::to_string(theta);
+          const std::string place = std::to_string(metallic) + " " + std::to_string(film.ior) +
+                                    " " + std::to_string(roughness) + " " + std::to_string(theta);
           EXPECT_GT(with, without - 0.035) << place;
           EXPECT_LT(with, 1.025) << place;
         }

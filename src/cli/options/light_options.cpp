@@ -62,8 +62,9 @@ constexpr std::array kLightOptions{
            .words = [] { return std::vector<std::string>{"lowest"}; },
            .set =
                [](Arguments& a, const OptionValue& value) {
-                 a.path.ground =
-                     value.text == "lowest" ? Ground{} : Ground{.height = value.number()};
+                 a.path.ground = value.text == "lowest"
+                                     ? Ground{}
+                                     : Ground{.height = value.number(-3e38, 3e38)};
                }},
 };
 static_assert(is_complete(kLightOptions));

@@ -7,6 +7,7 @@
 #include <microtrace/version.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <sstream>
 #include <string>
@@ -120,11 +121,12 @@ bool is_of_run(const Option& option) {
   return is_of(option, running_options()) || is_of(option, common_options());
 }
 
-/// Sets the identity of a data set: all options but those that change where and how the program
-/// runs.
+/// Sets the identity of a data set: all options but those that change only where and how the
+/// program runs and reads the scene.
 void identify_dataset(const std::vector<Given>& given, DatasetOptions& dataset) {
   for (const auto& [option, values] : given) {
-    if (option->name() == "--output" || option->name() == "--shard") continue;
+    constexpr std::array kNotOfFiles = {"--output", "--shard", "--instances", "--allow-path"};
+    if (std::ranges::find(kNotOfFiles, option->name()) != kNotOfFiles.end()) continue;
     if (is_of_run(*option)) continue;
     for (const std::string& value : values) {
       std::string argument = value;

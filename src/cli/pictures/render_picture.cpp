@@ -119,11 +119,21 @@ Film render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize
     files.samples->save();
   }
   if (film && DelayedSignals::received() == 0) return std::move(*film);
-  if (!arguments.quiet) {
+  if (!arguments.quiet && files.samples->has_samples()) {
     std::fprintf(stderr, "interrupted: the samples are saved in %s\n",
                  printable(files.samples->checkpoint().string()).c_str());
   }
   throw Interruption{DelayedSignals::received()};
+}
+
+FilmContents contents_of(const Arguments& arguments, std::optional<ImageSize> size) {
+  if (const auto& crop = arguments.crop) {
+    const bool is_valid = crop->x0 < crop->x1 && crop->y0 < crop->y1;  // otherwise refused later
+    size = is_valid ? std::optional(crop->size()) : std::nullopt;
+  }
+  return {.alpha = arguments.environment.is_transparent(),
+          .channels = !arguments.aovs.empty(),
+          .size = size};
 }
 
 }  // namespace
@@ -143,8 +153,7 @@ void check_outputs(const Arguments& arguments, const Sequence& sequence) {
                 "can't be rewritten by --progressive; name a file with -o");
   check_outputs_differ(
       {{"--output", output}, {"--sidecar", sidecar}, {"--checkpoint", checkpoint}});
-  check_image_path(output, {.alpha = arguments.environment.is_transparent(),
-                            .channels = !arguments.aovs.empty()});
+  check_image_path(output, contents_of(arguments, arguments.size));
   if (!sidecar.empty()) check_sidecar_path(sidecar, output);
 }
 
@@ -152,6 +161,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
                     const PictureFiles& files, std::optional<Shutter> shutter, Tables& tables,
                     Stopwatch& watch, Warnings& warnings,
                     const std::function<void(double)>& progress) {
+  if (!arguments.sampling.shard) check_image_path(files.picture, contents_of(arguments, size));
   if (arguments.verbose) print_scene_summary(arguments, scene, size);
   const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
   RenderTimes times;
@@ -210,7 +220,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   const Scene& drawn = prepared.scene();
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
     warnings.report_picture(
-        picture_warning(view_of(film, drawn, camera, options), arguments, drawn));
+        picture_warning(view_of(film, prepared, camera, options), arguments, drawn));
   if (!arguments.sampling.shard) {
     const auto instants = options.shutter ? std::optional(options.shutter->times) : std::nullopt;
     save_picture(arguments, drawn, camera, instants, film, files);

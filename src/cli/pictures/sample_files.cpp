@@ -88,7 +88,7 @@ void SampleFiles::keep(const std::vector<Channel>& channels) {
 }
 
 void SampleFiles::save() const {
-  if (!checkpoint_.empty() && !samples_.sums.pixels.empty()) save_checkpoint(samples_, checkpoint_);
+  if (!checkpoint_.empty() && has_samples()) save_checkpoint(samples_, checkpoint_);
 }
 
 void SampleFiles::save_if_due() {

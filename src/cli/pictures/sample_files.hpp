@@ -41,7 +41,10 @@ class SampleFiles {
   /// of the picture.
   void keep(const std::vector<Channel>& channels);
 
-  /// Writes the checkpoint if there is one.
+  /// False before the first pass.
+  [[nodiscard]] bool has_samples() const { return !samples_.sums.pixels.empty(); }
+
+  /// Writes the checkpoint if there is one and there are samples.
   void save() const;
 
   /// The file of --checkpoint; empty if there is none.

@@ -15,7 +15,11 @@ struct MicrotraceFormat {
   std::int32_t has_alpha;     ///< nonzero if alpha is stored with red, green and blue
   std::int32_t has_channels;  ///< nonzero if any number of channels with any names and any
                               ///< MicrotraceNumber is stored
+  std::uint32_t least_side, most_side;  ///< limits of width and height in pixels
 };
+
+/// For MicrotraceFormat::most_side: the format has no limit that a picture can exceed.
+inline constexpr std::uint32_t kMicrotraceAnySide = ~0U;
 
 enum MicrotraceNumber : std::int32_t {
   kMicrotraceU8,
@@ -86,8 +90,8 @@ using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, cons
 
 namespace microtrace::io {
 
-inline constexpr char kFindFormatName[] = "microtrace_find_format_v3";
-inline constexpr char kEncodeName[] = "microtrace_encode_v3";
+inline constexpr char kFindFormatName[] = "microtrace_find_format_v4";
+inline constexpr char kEncodeName[] = "microtrace_encode_v4";
 inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v2";
 
 }  // namespace microtrace::io

@@ -77,14 +77,18 @@ std::string encode(const MicrotracePicture& picture) {
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_find_format_v3(const char* extension,
+__attribute__((visibility("default"))) int microtrace_find_format_v4(const char* extension,
                                                                      MicrotraceFormat* format) {
   if (std::string_view(extension) != "exr") return 0;
-  *format = {.is_float = 1, .has_alpha = 1, .has_channels = 1};
+  *format = {.is_float = 1,
+             .has_alpha = 1,
+             .has_channels = 1,
+             .least_side = 1,
+             .most_side = kMicrotraceAnySide};
   return 1;
 }
 
-__attribute__((visibility("default"))) int microtrace_encode_v3(const MicrotracePicture* picture,
+__attribute__((visibility("default"))) int microtrace_encode_v4(const MicrotracePicture* picture,
                                                                 const char* /*extension*/,
                                                                 MicrotraceSink out,
                                                                 MicrotraceSink error,

@@ -47,6 +47,20 @@ bool holds_alpha(std::string_view name) {
   return std::ranges::find(kNames, name) != kNames.end();
 }
 
+struct Sides {
+  std::uint32_t least = 1, most = kMicrotraceAnySide;
+};
+
+/// The limits of width and height. Beyond them, libjpeg ends the process, JPEG 2000 files are
+/// damaged, and other encoders fail after the rendering.
+Sides sides_of(std::string_view name) {
+  if (name == "jpeg") return {.most = 65500};
+  if (name == "webp") return {.most = 16383};
+  if (name == "targa" || name == "gif") return {.most = 65535};
+  if (name == "jpeg2000") return {.least = 32};
+  return {};
+}
+
 TypeDesc type_of(MicrotraceNumber number) {
   return number == kMicrotraceU8 ? TypeDesc::UINT8 : TypeDesc::FLOAT;
 }
@@ -97,6 +111,7 @@ std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::s
     written = writer->write_image(type_of(channels[0].number), channels[0].first);
   }
   if (!writer->close() || !written) throw std::runtime_error(writer->geterror());
+  if (memory.buffer().empty()) throw std::runtime_error("OpenImageIO wrote nothing");
   return std::move(memory.buffer());
 }
 
@@ -104,7 +119,7 @@ std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::s
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_find_format_v3(const char* extension,
+__attribute__((visibility("default"))) int microtrace_find_format_v4(const char* extension,
                                                                      MicrotraceFormat* format) {
   try {
     const std::unique_ptr<ImageOutput> writer = find_writer(extension);
@@ -113,13 +128,16 @@ __attribute__((visibility("default"))) int microtrace_find_format_v3(const char*
     format->is_float = is_float_format(name) ? 1 : 0;
     format->has_alpha = holds_alpha(name) ? 1 : 0;
     format->has_channels = 0;
+    const Sides sides = sides_of(name);
+    format->least_side = sides.least;
+    format->most_side = sides.most;
     return 1;
   } catch (const std::exception&) {
     return 0;
   }
 }
 
-__attribute__((visibility("default"))) int microtrace_encode_v3(const MicrotracePicture* picture,
+__attribute__((visibility("default"))) int microtrace_encode_v4(const MicrotracePicture* picture,
                                                                 const char* extension,
                                                                 MicrotraceSink out,
                                                                 MicrotraceSink error,

@@ -74,6 +74,15 @@ TEST(GltfInstances, ZeroQuaternionsAreIgnored) {
   EXPECT_EQ(triangles_of(scene.scene.objects.at(0))[0][1], Vec3(101, 0, 0));
 }
 
+TEST(GltfInstances, OtherQuaternionsAreNormalized) {
+  AssetBuilder asset = instanced_triangle();
+  instantiate(asset, {{"ROTATION", add_attribute<float>(asset, kFloat32, "VEC4", false,
+                                                        {0, 0, 0, 2, 0, 0, 3, 0}, 2)}});
+  const LoadedScene scene = load(asset);
+  EXPECT_THAT(texts(scene.warnings), ElementsAre(HasSubstr("not of unit length")));
+  EXPECT_EQ(triangles_of(scene.scene.objects.at(0))[0][1], Vec3(101, 0, 0));
+}
+
 TEST(GltfInstances, InvalidAttributesAreRefused) {
   struct Case {
     const char* name;

@@ -80,6 +80,10 @@ class Maker {
   /// Normalizes the quaternion.
   glm::dvec4 rotation(const glm::dvec4& quaternion) {
     const double length = std::sqrt(glm::dot(quaternion, quaternion));
+    // Bytes represent unit quaternions to about 0.02.
+    if (length > 0 && std::abs(length - 1) > 0.02)
+      asset_.tolerate(attributes_.member("ROTATION"),
+                      "has quaternions that are not of unit length, which are normalized");
     if (length > 0) return quaternion / length;
     asset_.tolerate(attributes_.member("ROTATION"), "has zero quaternions, which are ignored");
     return no_turn;

@@ -53,6 +53,14 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
     refuse(" stores only colors; write further channels to an .exr file");
   if (contents.alpha && format.has_alpha == 0)
     refuse(" has no alpha; write .png or .exr, or give the background a color");
+  if (!contents.size) return;
+  const auto [width, height] = *contents.size;
+  if (std::min(width, height) < format.least_side)
+    refuse(" needs at least " + std::to_string(format.least_side) +
+           " pixels in width and height; write .png");
+  if (std::max(width, height) > format.most_side)
+    refuse(" holds at most " + std::to_string(format.most_side) +
+           " pixels in width and height; write .png");
 }
 
 /// The writer for files with a given extension. Loads its module if necessary. Formats that need no
@@ -83,7 +91,12 @@ class Writer {
   std::string extension_;
   std::optional<io::PngEncoder> png_;
   std::optional<io::ImageModule> others_;
-  MicrotraceFormat format_{};  // initially PPM's: 8 bits, no alpha, no channels
+  // Initially PPM's: 8 bits, no alpha, no channels, any size.
+  MicrotraceFormat format_{.is_float = 0,
+                           .has_alpha = 0,
+                           .has_channels = 0,
+                           .least_side = 1,
+                           .most_side = kMicrotraceAnySide};
 };
 
 }  // namespace
@@ -107,7 +120,8 @@ void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding
                 const Sidecar* sidecar) {
   const FloatEnvironment environment;
   const std::string extension = format_extension(path);
-  const FilmContents contents{.alpha = film.has_alpha(), .channels = !film.channels.empty()};
+  const FilmContents contents{
+      .alpha = film.has_alpha(), .channels = !film.channels.empty(), .size = film.size()};
   const Writer writer(path, extension);
   require(contents, writer.format(), path, extension);
   std::optional<io::AtomicFile> beside;
