@@ -215,5 +215,17 @@ TEST(JsonScene, ManyObjectsTakeLinearTime) {
   EXPECT_EQ(parse(text + "]}").objects.size(), 50'001U);
 }
 
+TEST(JsonScene, CountsTheMemoryOfMaterials) {
+  std::string text(kMinimal.substr(0, kMinimal.rfind('}')));
+  text += R"(, "materials": {"first": {})";
+  constexpr std::size_t kCount = 1000;
+  for (std::size_t i = 1; i < kCount; ++i)
+    text.append(R"(, ")").append(std::to_string(i)).append(R"(": {})");
+  text += "}}";
+  EXPECT_EQ(parse(text).materials.size(), kCount);
+  MemoryBudget budget(kCount * sizeof(Material));
+  EXPECT_THROW((void)parse_scene(text, "s.json", ".", {.memory = &budget}), Error);
+}
+
 }  // namespace
 }  // namespace microtrace

@@ -1,5 +1,6 @@
 #include "io/scene_json/scene.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/confined_reads.hpp"
 #include "io/json/reader.hpp"
 #include "io/scene_json/camera.hpp"
@@ -15,6 +16,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <utility>
 #include <variant>
 
 namespace microtrace::io {
@@ -76,7 +78,7 @@ class Palette {
   void name_materials(const JsonReader& json) {
     for (const auto& [name, item] : json.members()) {
       named_.emplace(name, static_cast<std::uint32_t>(scene_.materials.size()));
-      scene_.materials.push_back(read_material(item, colors_));
+      add(read_material(item, colors_));
       scene_.materials.back().name = name;
     }
   }
@@ -93,11 +95,16 @@ class Palette {
     const Vec3 rgb = read_color(*color, colors_);
     const auto next = static_cast<std::uint32_t>(scene_.materials.size());
     const auto [known, is_new] = plain_.try_emplace({rgb.x, rgb.y, rgb.z}, next);
-    if (is_new) scene_.materials.push_back({.base_color = Vec4(rgb, 1)});
+    if (is_new) add({.base_color = Vec4(rgb, 1)});
     return known->second;
   }
 
  private:
+  void add(Material material) {
+    take_memory(sizeof(Material), "the materials of the scene");
+    scene_.materials.push_back(std::move(material));
+  }
+
   std::uint32_t find(const JsonReader& json) const {
     const std::string name = json.string();
     const auto found = named_.find(name);
