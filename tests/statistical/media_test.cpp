@@ -112,6 +112,23 @@ TEST(Media, WhiteBodyFarAwayVanishesInTheFurnace) {
   EXPECT_LT(light.mean, 1 + kFar * light.deviation + 0.001);
 }
 
+// The mean free path is far below the spacing of float32 numbers.
+TEST(Media, WhiteBodiesOfAnyDensityVanishInTheFurnace) {
+  for (const float distance : {1e-6F, 1e-8F, 1e-30F}) {
+    for (const float x : {0.0F, 5.0F, 1000.0F}) {
+      Scene scene = ball_under_sky(scattering(clear_body(Vec3(0.5F)), Vec3(1)));
+      scene.materials[0].volume->attenuation_distance = distance;
+      scene.objects[0].shape = Sphere{{x, 0, 0}, 1};
+      scene.objects.push_back({.name = "speck", .shape = Sphere{{0, 0, 0}, 0.001F}, .material = 0});
+      OrthographicCamera camera = kAcrossBall;
+      camera.pose.position.x = x;
+      const Estimate light = estimate(scene, camera, {.samples = 4, .max_depth = 512}, kSeeds);
+      EXPECT_NEAR(light.mean, 1, kFar * light.deviation + 0.02) << distance << ' ' << x;
+      EXPECT_LT(light.mean, 1 + kFar * light.deviation + 0.001) << distance << ' ' << x;
+    }
+  }
+}
+
 // A medium below a plane, seen from straight above under a white sky.
 TEST(Media, HalfSpaceReflectsAsPublished) {
   Scene scene = ball_under_sky({});

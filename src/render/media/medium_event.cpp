@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace microtrace {
@@ -17,6 +18,17 @@ namespace {
 
 /// Limits footprints in media without an end, so that they stay finite.
 constexpr double kLongestFlight = 1e30;
+
+/// Limits the extinction such that flights from p are long enough to move a float32 point: to a
+/// mean free path of about 90 spacings of float32 numbers. Light spreads over so short a distance
+/// invisibly, so the color of the body remains. Without this limit, paths in denser media would end
+/// after kMostScatterings events at the same point.
+Medium with_resolvable_flights(const Medium& medium, const Vec3& p) {
+  const float greatest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  Medium result = medium;
+  result.extinction = glm::min(medium.extinction, Vec3(0x1p17F / greatest));
+  return result;
+}
 
 /// Returns true if the path survives Russian roulette, which compensates its throughput. There is
 /// no upper limit below 1 as at surfaces: over hundreds of events, the compensation would make the
@@ -67,8 +79,9 @@ MediumEvent cross_medium(const Bvh& bvh, const WaveStep& step, const Ray& ray,
     return {};
   }
   if (path.throughput == Vec3(0)) return {.arrives = false};
-  const FreeFlight flight = sample_free_flight(medium, path.throughput, hit ? distance : kInfinity,
-                                               path.sobol.pair(step.flight_pair()));
+  const FreeFlight flight =
+      sample_free_flight(with_resolvable_flights(medium, ray.o), path.throughput,
+                         hit ? distance : kInfinity, path.sobol.pair(step.flight_pair()));
   path.throughput *= flight.weight;
   if (!flight.distance) return {};
   if (++path.scatterings > kMostScatterings || !survives(step, path)) return {.arrives = false};
