@@ -15,6 +15,7 @@
 #include <string>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace microtrace::io {
 namespace {
@@ -150,7 +151,9 @@ void AtomicFile::write(std::string_view bytes) {
     if (written > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
     } else if (written == 0 || errno != EINTR) {
-      fail(written == 0 ? EIO : errno, "free some space, or name another file");
+      const int error = written == 0 ? EIO : errno;
+      fail(error, error == EPIPE ? "the program that reads the pipe has ended"
+                                 : "free some space, or name another file");
     }
   }
 }
@@ -185,8 +188,27 @@ bool is_stream(const fs::path& target) {
 
 namespace microtrace {
 
+namespace {
+
+/// True for two names of one pipe or socket, such as "-" and /dev/stdout.
+bool are_same_pipe(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto status_of = [](const std::filesystem::path& path) {
+    struct stat status {};
+    const bool is_there =
+        (path == "-" ? ::fstat(STDOUT_FILENO, &status) : ::stat(path.c_str(), &status)) == 0;
+    return is_there && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode))
+               ? std::optional(std::pair(status.st_dev, status.st_ino))
+               : std::nullopt;
+  };
+  const auto pipe = status_of(a);
+  return pipe && pipe == status_of(b);
+}
+
+}  // namespace
+
 bool are_same_target(const std::filesystem::path& a, const std::filesystem::path& b) {
   if (const auto file = identity_of(a)) return file == identity_of(b);
+  if (are_same_pipe(a, b)) return true;
   const auto place = [](const std::filesystem::path& path) {
     std::error_code ignored;
     const std::filesystem::path target = io::follow_links(path);

@@ -223,6 +223,11 @@ class Sidecar(ProgramTest):
         self.assertEqual(self.run_program(*options, "-o", "c.exr", "--sidecar", "d.json", "-t", "3").returncode, 0)
         self.assertEqual((self.folder / "d.json").read_bytes(), first)
 
+    def test_picture_and_sidecar_are_not_mixed_in_a_pipe(self):
+        for sidecar in ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
+            result = self.run_program(SOURCE / "scenes/gltf/cube.glb", "--size", "20x15", "-o", "-", "--sidecar", sidecar)
+            self.assertEqual((result.returncode, result.stdout), (2, b""), sidecar)
+
     def test_all_or_nothing(self):
         cube = SOURCE / "scenes/gltf/cube.glb"
         (self.folder / "a.exr").write_text("precious")

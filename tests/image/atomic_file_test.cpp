@@ -73,6 +73,7 @@ TEST(AtomicFile, FailuresAreReportedInAdvance) {
   EXPECT_THROW(check_image_path(folder / "missing/a.ppm"), Error);
   EXPECT_THROW(check_image_path(folder / "d.ppm"), Error);
   EXPECT_THROW(check_image_path(folder / "a"), Error);
+  EXPECT_THROW(check_image_path(folder / "."), Error);
   EXPECT_NO_THROW(check_image_path(folder / "a.ppm"));
   EXPECT_NO_THROW(check_image_path("-"));
   EXPECT_NO_THROW(check_image_path("/dev/stdout"));

@@ -78,7 +78,8 @@ ImageSize parse_size(const OptionValue& value) {
   if (!width || !height) value.refuse("WIDTHxHEIGHT in pixels, such as 640x480");
   const ImageSize size{.width = *width, .height = *height};
   if (const auto problem = validate(size))
-    refuse_usage(value.option + ": " + problem->field + " " + problem->message);
+    refuse_usage(value.option + ": " + problem->field + (problem->field.empty() ? "" : " ") +
+                 problem->message);
   return size;
 }
 

@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace microtrace {
 namespace {
@@ -24,8 +26,11 @@ std::string format_extension(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   if (extension.size() < 2) {
+    std::error_code ignored;
     throw Error(ErrorKind::usage, path.string(),
-                "has no extension that selects a picture format; use .ppm, .png or .exr");
+                std::filesystem::is_directory(path, ignored)
+                    ? "is a folder; name a file in it"
+                    : "has no extension that selects a picture format; use .ppm, .png or .exr");
   }
   return extension.substr(1);
 }
