@@ -157,13 +157,10 @@ class Writer {
 
   /// Returns one object for all meshes that share their arrays.
   nb::object shared_mesh_of(const Mesh& mesh) {
-    std::size_t& place = places_of_meshes_.try_emplace(MeshKey(mesh), meshes_.size()).first->second;
-    const bool is_known = place < meshes_.size() && have_same_arrays(*meshes_[place].mesh, mesh);
-    if (!is_known) {
-      place = meshes_.size();
-      meshes_.push_back({&mesh, shape_of(mesh)});
-    }
-    return meshes_[place].object;
+    const Mesh& first = shared_.find_or_add(mesh).mesh;
+    nb::object& object = meshes_[&first];
+    if (!object.is_valid()) object = shape_of(first);
+    return object;
   }
 
   /// Returns the rows of a (3, 4) matrix.
@@ -202,15 +199,10 @@ class Writer {
     return make("lights", "Environment", arguments);
   }
 
-  struct KnownMesh {
-    const Mesh* mesh;
-    nb::object object;
-  };
-
   const Scene& scene_;
   std::vector<nb::object> images_, textures_, materials_;
-  std::vector<KnownMesh> meshes_;                                             // placed ones
-  std::unordered_map<MeshKey, std::size_t, MeshKey::Hash> places_of_meshes_;  // in meshes_
+  SharedMeshes shared_;
+  std::unordered_map<const Mesh*, nb::object> meshes_;  // of shared_
 };
 
 }  // namespace

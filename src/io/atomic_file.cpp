@@ -1,5 +1,6 @@
 #include "io/atomic_file.hpp"
 
+#include "io/file.hpp"
 #include "io/unfinished_files.hpp"
 
 #include <microtrace/error.hpp>
@@ -192,16 +193,14 @@ namespace {
 
 /// True for two names of one pipe or socket, such as "-" and /dev/stdout.
 bool are_same_pipe(const std::filesystem::path& a, const std::filesystem::path& b) {
-  const auto status_of = [](const std::filesystem::path& path) {
-    struct stat status {};
-    const bool is_there =
-        (path == "-" ? ::fstat(STDOUT_FILENO, &status) : ::stat(path.c_str(), &status)) == 0;
-    return is_there && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode))
-               ? std::optional(std::pair(status.st_dev, status.st_ino))
+  const auto pipe_of = [](const std::filesystem::path& path) {
+    const auto status = io::status_of_target(path);
+    return status && (S_ISFIFO(status->st_mode) || S_ISSOCK(status->st_mode))
+               ? std::optional(std::pair(status->st_dev, status->st_ino))
                : std::nullopt;
   };
-  const auto pipe = status_of(a);
-  return pipe && pipe == status_of(b);
+  const auto pipe = pipe_of(a);
+  return pipe && pipe == pipe_of(b);
 }
 
 }  // namespace

@@ -127,6 +127,13 @@ std::string read_regular_file(const std::filesystem::path& path, std::size_t lim
   return read_descriptor(descriptor.number(), name, limit, {});
 }
 
+std::optional<struct stat> status_of_target(const std::filesystem::path& path) {
+  struct stat status {};
+  const bool is_there =
+      (path == "-" ? ::fstat(STDOUT_FILENO, &status) : ::stat(path.c_str(), &status)) == 0;
+  return is_there ? std::optional(status) : std::nullopt;
+}
+
 }  // namespace microtrace::io
 
 namespace microtrace {
@@ -140,10 +147,8 @@ ReadDigest::~ReadDigest() {
 }
 
 std::optional<FileIdentity> identity_of(const std::filesystem::path& path) {
-  struct stat status {};
-  const bool is_there =
-      (path == "-" ? ::fstat(STDOUT_FILENO, &status) : ::stat(path.c_str(), &status)) == 0;
-  return is_there ? io::identity_of(status) : std::nullopt;
+  const auto status = io::status_of_target(path);
+  return status ? io::identity_of(*status) : std::nullopt;
 }
 
 ReadFiles::ReadFiles() : former_(io::files_read) {

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <sys/stat.h>
 
 namespace microtrace::io {
 
@@ -32,5 +34,9 @@ inline constexpr std::size_t kMaxFileSize = std::size_t{1} << 30;
 
 /// Records in ReadFiles a file that a scene names but that is not read.
 void note_unread_file(const std::filesystem::path& path);
+
+/// Returns the status of the file to which the path leads; "-" means standard output. Returns
+/// nothing if there is no file.
+[[nodiscard]] std::optional<struct stat> status_of_target(const std::filesystem::path& path);
 
 }  // namespace microtrace::io

@@ -161,7 +161,9 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
                     const PictureFiles& files, std::optional<Shutter> shutter, Tables& tables,
                     Stopwatch& watch, Warnings& warnings,
                     const std::function<void(double)>& progress) {
-  if (!arguments.sampling.shard) check_image_path(files.picture, contents_of(arguments, size));
+  // Otherwise check_outputs() knew the size.
+  if (!arguments.sampling.shard && !arguments.size && !arguments.crop)
+    check_image_path(files.picture, contents_of(arguments, size));
   if (arguments.verbose) print_scene_summary(arguments, scene, size);
   const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
   RenderTimes times;

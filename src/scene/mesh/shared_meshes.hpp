@@ -25,28 +25,35 @@ struct MeshKey {
   };
 };
 
-[[nodiscard]] inline bool have_same_arrays(const Mesh& a, const Mesh& b) {
-  const auto is_same = [](const auto& x, const auto& y) {
-    return x.data() == y.data() && x.size() == y.size();
-  };
-  if (a.uv_sets.size() != b.uv_sets.size()) return false;
-  for (std::size_t i = 0; i < a.uv_sets.size(); ++i)
-    if (!is_same(a.uv_sets[i], b.uv_sets[i])) return false;
-  return is_same(a.positions, b.positions) && is_same(a.triangles, b.triangles) &&
-         is_same(a.normals, b.normals) && is_same(a.tangents, b.tangents) &&
-         is_same(a.colors, b.colors) && is_same(a.segments, b.segments);
-}
-
 class SharedMeshes {
  public:
   /// Returns false if the mesh is placed and has the arrays of a placed mesh that was added before.
-  bool add(const Mesh& mesh) {
-    if (!mesh.placement) return true;
+  bool add(const Mesh& mesh) { return find_or_add(mesh).is_new; }
+
+  struct Known {
+    const Mesh& mesh;  ///< the first mesh with the same arrays
+    bool is_new;       ///< as add() returns
+  };
+  Known find_or_add(const Mesh& mesh) {
+    if (!mesh.placement) return {mesh, true};
     const auto [known, is_new] = meshes_.emplace(MeshKey(mesh), &mesh);
-    return is_new || !have_same_arrays(*known->second, mesh);
+    if (is_new || !has_same_arrays(*known->second, mesh)) return {mesh, true};
+    return {*known->second, false};
   }
 
  private:
+  static bool has_same_arrays(const Mesh& a, const Mesh& b) {
+    const auto is_same = [](const auto& x, const auto& y) {
+      return x.data() == y.data() && x.size() == y.size();
+    };
+    if (a.uv_sets.size() != b.uv_sets.size()) return false;
+    for (std::size_t i = 0; i < a.uv_sets.size(); ++i)
+      if (!is_same(a.uv_sets[i], b.uv_sets[i])) return false;
+    return is_same(a.positions, b.positions) && is_same(a.triangles, b.triangles) &&
+           is_same(a.normals, b.normals) && is_same(a.tangents, b.tangents) &&
+           is_same(a.colors, b.colors) && is_same(a.segments, b.segments);
+  }
+
   std::unordered_map<MeshKey, const Mesh*, MeshKey::Hash> meshes_;
 };
 
