@@ -191,7 +191,7 @@ inline Floats3<N> all3(float x) requires(N > 1) {
 
 template <int N>
 inline Floats3<N> unit(const Floats3<N>& v) {
-  return v / square_root<N>(dot(v, v));
+  return v * (1 / square_root<N>(dot(v, v)));
 }
 
 /// Convert between float32 and float64; the conversion to float32 rounds.

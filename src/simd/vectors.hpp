@@ -96,31 +96,16 @@ inline Float<N> to_float(const Int<N>& a) {
     return __builtin_convertvector(a, Float<N>);
 }
 
-/// Loads N float32 numbers as float64.
-template <int N>
-inline Double<N> widened(const float* p) {
-  Float<N> v;
-  __builtin_memcpy(&v, p, sizeof v);
-  if constexpr (N == 1)
-    return v;
-  else
-    return __builtin_convertvector(v, Double<N>);
-}
-
-/// Rounds to float32 and stores the result.
-template <int N>
-inline void narrowed(const Double<N>& v, float* p) {
-  if constexpr (N == 1) {
-    *p = static_cast<float>(v);
-  } else {
-    const Float<N> rounded = __builtin_convertvector(v, Float<N>);
-    __builtin_memcpy(p, &rounded, sizeof rounded);
-  }
-}
-
 /// Convert between float32 and float64; the conversion to float32 rounds.
 template <int N>
 inline Double<N> to_double(const Float<N>& a) {
+  // GCC 12 converts the halves of a vector separately.
+#if defined(__AVX512F__)
+  if constexpr (N == 8) return _mm512_maskz_cvtps_pd(0xff, a);
+#endif
+#if defined(__AVX__)
+  if constexpr (N == 4) return _mm256_cvtps_pd(a);
+#endif
   if constexpr (N == 1)
     return a;
   else
@@ -139,6 +124,17 @@ inline Float<N> to_single(const Double<N>& a) {
     return static_cast<float>(a);
   else
     return __builtin_convertvector(a, Float<N>);
+}
+
+/// Loads N float32 numbers as float64.
+template <int N>
+inline Double<N> widened(const float* p) {
+  return to_double<N>(load<N>(p));
+}
+/// Rounds to float32 and stores the result.
+template <int N>
+inline void narrowed(const Double<N>& v, float* p) {
+  store<N>(p, to_single<N>(v));
 }
 
 /// Converts the result of a float64 comparison to a mask that selects float32 lanes.

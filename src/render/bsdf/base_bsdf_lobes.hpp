@@ -119,7 +119,7 @@ template <int N, class Parts>
 void BaseBsdf<N, Parts>::refract(const V& wi, Evaluation<N>& e) const {
   const V sum = wo_ + eta_ * wi;
   const F square = dot(sum, sum);
-  V h = sum / square_root<N>(square);
+  V h = unit<N>(sum);
   h = select3(h.z < 0, V(-h), h);
   const F cos_o = dot(wo_, h), cos_i = dot(wi, h);
   const F denominator = cos_o + eta_ * cos_i;

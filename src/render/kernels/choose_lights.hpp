@@ -40,42 +40,6 @@ KindProbabilities<N> kind_probabilities(const LightChoiceSetup& setup, const Flo
           is_lit ? of_near / all_kinds : F{}};
 }
 
-/// choose_light() in fewer lanes if few lanes are wanted. This is common for models with a few
-/// emissive parts in an environment.
-template <int N>
-LightChoice<N> choose_near(const LightNode* nodes, const Floats3<N>& p, const Floats3<N>& n,
-                           const Float<N>& u, Lanes wanted) {
-  constexpr int kFew = 4;
-  const int count = __builtin_popcount(wanted);
-  if constexpr (N > kFew) {
-    if (count <= kFew) {
-      int from[kFew];
-      Lanes rest = wanted;
-      for (int& one : from) {
-        one = __builtin_ctz(rest);
-        if ((rest & (rest - 1)) != 0) rest &= rest - 1;  // unused lanes repeat the last one
-      }
-      const auto packed = [&](const Float<N>& all) {
-        Float<kFew> few{};
-        for (int i = 0; i < kFew; ++i) few[i] = all[from[i]];
-        return few;
-      };
-      const auto packed3 = [&](const Floats3<N>& v) {
-        return Floats3<kFew>{packed(v.x), packed(v.y), packed(v.z)};
-      };
-      const LightChoice<kFew> few =
-          choose_light<kFew>(nodes, packed3(p), packed3(n), packed(u), (Lanes{1} << count) - 1);
-      LightChoice<N> all{};
-      for (int i = 0; i < count; ++i) {
-        all.light[from[i]] = few.light[i];
-        all.probability[from[i]] = few.probability[i];
-      }
-      return all;
-    }
-  }
-  return choose_light<N>(nodes, p, n, u, wanted);
-}
-
 template <int N, int width>
 void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lanes, int i) {
   using F = Float<N>;
@@ -88,7 +52,7 @@ void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lane
   const auto is_near = negated(is_environment) & negated(is_far);
   const Lanes near = true_lanes<N>(is_near);
   LightChoice<N> chosen{};
-  if (near != 0) chosen = choose_near<N>(setup.nodes, p, n, of_near, near);
+  if (near != 0) chosen = choose_light<N>(setup.nodes, p, n, of_near, near);
   store<N>(lanes.choice + i, is_environment ? choice : is_far ? beyond / kinds.far : of_near);
   const F probability = is_environment ? kinds.environment
                         : is_near      ? kinds.near * chosen.probability

@@ -37,11 +37,11 @@ void intersect_planes(HitArrays<width>& hits, int i) {
   const D w = larger_of(D(dot(cross(e1, from_a), n) * inverse), zero);
   const D u = larger_of(D(1 - v - w), zero), sum = u + v + w;
   narrowed3<N>(p, hits.p, i);
-  narrowed3<N>(V{u, v, w} / sum, hits.weights, i);
+  narrowed3<N>(V{u, v, w} * (1 / sum), hits.weights, i);
   narrowed<N>(slope > 0 ? one : zero, hits.from_behind + i);
   narrowed<N>(t * square_root<N>(dot(d, d)), hits.distance + i);
   const D length = square_root<N>(square);
-  narrowed3<N>(n / length, hits.n, i);
+  narrowed3<N>(n * (length * inverse), hits.n, i);
   narrowed<N>(length, hits.area + i);
 }
 
@@ -58,7 +58,7 @@ void interpolate(HitArrays<width>& hits, int i) {
   V ns = weighed(load3<N>(hits.normals[0], i), load3<N>(hits.normals[1], i),
                  load3<N>(hits.normals[2], i));
   const F square = dot(ns, ns);
-  ns = select3(square > 0, V(ns / square_root<N>(square)), n);
+  ns = select3(square > 0, unit<N>(ns), n);
   // In some files, the winding contradicts the normals. The winding defines the front side.
   store3<N>(hits.ns, i, select3(dot(ns, n) < 0, V(-ns), ns));
   const auto at = [&](int corner, int axis) { return load<N>(hits.uv[corner][axis] + i); };

@@ -47,10 +47,10 @@ void sample_triangles_from(const TriangleLight* triangles, const TriangleChoices
   const W from = to_double3<N>(t.a);
   const W cross_product = cross(W(to_double3<N>(t.b) - from), W(to_double3<N>(t.c) - from));
   const D length = square_root<N>(dot(cross_product, cross_product));
-  const V normal = to_single3<N>(cross_product / length);
+  const V normal = to_single3<N>(cross_product * (1 / length));
   const W to_light = to_double3<N>(at) - widened3<N>(points.p, i);
   const D square = dot(to_light, to_light), distance = square_root<N>(square);
-  const V wi = to_single3<N>(to_light / distance);
+  const V wi = to_single3<N>(to_light * (1 / distance));
   const F cosine = -dot(wi, normal);
   const D pdf = area_pdf<N>(square, length / 2, magnitude(cosine));
 

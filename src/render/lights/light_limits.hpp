@@ -46,7 +46,7 @@ SelectedLight<N> selected_light(const Doubles3<N>& to_light, const Double<N>& di
       single_mask<N>((distance >= kLeastReach) & (distance <= kGreatestReach));
   const Double<N> most = Double<N>{} + double{kBrightest};
   const Doubles3<N> limited =
-      least_components(Doubles3<N>(light / probability), Doubles3<N>{most, most, most});
+      least_components(Doubles3<N>(light * (1 / probability)), Doubles3<N>{most, most, most});
   const Double<N> selected_pdf = pdf > 0 ? limited_pdf<N>(pdf * probability) : Double<N>{};
   return {select3(has_direction, to_single3<N>(to_light), wi),
           has_direction ? Float<N>{} : all<N>(1), to_single3<N>(limited),

@@ -13,9 +13,9 @@ namespace microtrace {
 /// A node of the light tree, in the tree's own units (LightTreeSpace). Nodes are plain data,
 /// because the kernels of all instruction sets share them.
 struct alignas(64) LightNode {
-  float center[3];      ///< center of the bounding box
-  float radius_square;  ///< squared radius of the box's bounding sphere
-  float axis[3];        ///< axis of the cone of normals, of unit length
+  float center[3];  ///< center of the bounding box
+  float radius;     ///< radius of the box's bounding sphere
+  float axis[3];    ///< axis of the cone of normals, of unit length
   float power;
   float cos_o, sin_o;  ///< cosine and sine of half the cone's opening angle
   float cos_e;         ///< cosine of the greatest angle to its normal at which a light emits
@@ -45,21 +45,20 @@ struct LightTreeSpace {
   }
 };
 
-/// An angle in [0, pi].
+/// An angle in [0, pi]: the cosine and sine times a common factor.
 template <int N>
 struct LightAngle {
   using F = Float<N>;
 
   F cosine, sine;
 
-  static LightAngle of(const F& cosine) {
-    return {cosine, square_root<N>(larger_of(F(1 - cosine * cosine), F{}))};
+  /// `square` is the square of the factor.
+  static LightAngle of(const F& cosine, const F& square) {
+    return {cosine, square_root<N>(larger_of(F(square - cosine * cosine), F{}))};
   }
-  /// The difference of two angles, at least 0.
+  /// The difference of two angles, unless it is at most 0. Its factor is the product of both.
   friend LightAngle operator-(const LightAngle& a, const LightAngle& b) {
-    const auto is_zero = a.cosine >= b.cosine;
-    return {is_zero ? all<N>(1) : a.cosine * b.cosine + a.sine * b.sine,
-            is_zero ? F{} : a.sine * b.cosine - a.cosine * b.sine};
+    return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
   }
 };
 
@@ -70,14 +69,14 @@ struct LightNodes {
   using V = Floats3<N>;
 
   V center, axis;
-  F radius_square, power, cos_o, sin_o, cos_e, is_two_sided;
+  F radius, power, cos_o, sin_o, cos_e, is_two_sided;
   Unsigned<N> children, light;
 
   /// Puts the same node in all lanes.
   explicit LightNodes(const LightNode& node)
       : center{all<N>(node.center[0]), all<N>(node.center[1]), all<N>(node.center[2])},
         axis{all<N>(node.axis[0]), all<N>(node.axis[1]), all<N>(node.axis[2])},
-        radius_square(all<N>(node.radius_square)),
+        radius(all<N>(node.radius)),
         power(all<N>(node.power)),
         cos_o(all<N>(node.cos_o)),
         sin_o(all<N>(node.sin_o)),
@@ -92,7 +91,7 @@ struct LightNodes {
     F columns[kColumns];
     load_rows<N>(nodes->center, indices, columns);
     center = {columns[0], columns[1], columns[2]};
-    radius_square = columns[3];
+    radius = columns[3];
     axis = {columns[4], columns[5], columns[6]};
     power = columns[7];
     cos_o = columns[8];
@@ -106,31 +105,29 @@ struct LightNodes {
   /// An upper bound of the light that arrives at p, except for the BSDF and a constant factor. `n`
   /// is the unit normal at p on either side. The result is positive unless no light arrives.
   [[nodiscard]] F importance(const V& p, const V& n) const {
-    const F zero{}, one = all<N>(1), least_square = all<N>(LightTreeSpace::kLeast);
+    const F zero{}, one = all<N>(1), least = all<N>(LightTreeSpace::kLeast);
     const V to_light = p - center;
-    const F square = dot(to_light, to_light), inverse = 1 / square_root<N>(square);
-    // The angle subtended by the bounding sphere.
-    const F sine_square = smaller_of(F(radius_square * inverse * inverse), one);
+    const F square = dot(to_light, to_light), radius_square = radius * radius;
     const auto is_inside = square <= radius_square;
-    const LightAngle<N> box{square_root<N>(1 - sine_square), square_root<N>(sine_square)};
+    const F inverse = 1 / larger_of(square, radius_square);
+    // The angle subtended by the bounding sphere. The factor of this and the following angles is
+    // the distance, which saves roots and divisions.
+    const LightAngle<N> box{square_root<N>(larger_of(F(square - radius_square), zero)), radius};
     const auto least_cosine = [&](const LightAngle<N>& angle) {
-      return larger_of(F(is_inside ? one : (angle - box).cosine), zero);
+      const LightAngle<N> rest = angle - box;
+      return is_inside | (rest.sine <= 0) ? one : larger_of(F(rest.cosine * inverse), zero);
     };
-    F cosines =
-        least_cosine(LightAngle<N>::of(smaller_of(magnitude(F(dot(to_light, n) * inverse)), one)));
+    F cosines = least_cosine(LightAngle<N>::of(magnitude(F(dot(to_light, n))), square));
     auto is_reached = cosines > 0;
     if (less<N>(all<N>(-1), cos_o) != 0) {  // not for point lights, which emit in all directions
-      const F along = dot(axis, to_light) * inverse;
-      const auto to_point =
-          LightAngle<N>::of(smaller_of(is_two_sided != 0 ? magnitude(along) : along, one));
-      const F least = least_cosine(to_point - LightAngle<N>{cos_o, sin_o});
-      cosines = cosines * least;
-      is_reached = (cosines > 0) & (least >= cos_e);
+      const F along = dot(axis, to_light);
+      const auto to_point = LightAngle<N>::of(is_two_sided != 0 ? magnitude(along) : along, square);
+      const LightAngle<N> beyond = to_point - LightAngle<N>{cos_o, sin_o};
+      const F emitted = beyond.sine <= 0 ? one : least_cosine(beyond);
+      cosines = cosines * emitted;
+      is_reached = (cosines > 0) & (emitted >= cos_e);
     }
-    const auto is_near = square <= least_square;
-    const F bound = power * (is_near ? one : cosines) /
-                    larger_of(larger_of(square, radius_square), least_square);
-    return is_near | is_reached ? larger_of(bound, is_near ? zero : least_square) : zero;
+    return is_reached ? larger_of(F(power * cosines * inverse), least) : zero;
   }
 };
 
@@ -182,14 +179,59 @@ struct LightChoice {
   Float<N> probability{};  ///< selection probability at each point; 0 if no light reaches the point
 };
 
-/// Selects a light for each of the `wanted` lanes. p is in the units of the tree. u is in [0, 1).
+/// The state of a selection: the random numbers that are left, and the current children.
 template <int N>
-LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const Floats3<N>& n,
-                            Float<N> u, Lanes wanted) {
+struct LightDescent {
+  Floats3<N> p, n;  ///< p is in the units of the tree
+  Float<N> u, probability;
+  Unsigned<N> next, light;
+
+  /// The same for fewer lanes, those with the numbers `from`.
+  template <int M>
+  [[nodiscard]] LightDescent<M> packed(const int (&from)[M]) const {
+    LightDescent<M> few{};
+    const auto pack = [&](const auto& all_lanes, auto& to) {
+      for (int i = 0; i < M; ++i) to[i] = all_lanes[from[i]];
+    };
+    const auto pack3 = [&](const Floats3<N>& v, Floats3<M>& to) {
+      pack(v.x, to.x);
+      pack(v.y, to.y);
+      pack(v.z, to.z);
+    };
+    pack3(p, few.p);
+    pack3(n, few.n);
+    pack(u, few.u);
+    pack(probability, few.probability);
+    pack(next, few.next);
+    pack(light, few.light);
+    return few;
+  }
+};
+
+/// Descends from inner nodes to lights in the lanes `inner`. Continues in fewer lanes where few are
+/// left: paths to lights differ in length, and often only some lanes need one of these lights.
+template <int N>
+void descend(const LightNode* nodes, LightDescent<N>& state, Lanes inner) {
   using F = Float<N>;
-  LightChoice<N> choice{.probability = all<N>(1)};
-  Unsigned<N> light = Unsigned<N>{} + nodes[0].light, next = Unsigned<N>{} + nodes[0].children;
-  for (Lanes inner = nodes[0].children == 0 ? 0 : wanted; inner != 0;) {
+  while (inner != 0) {
+    if constexpr (N > 4) {
+      if (const int count = __builtin_popcount(inner); count <= N / 2) {
+        int from[N / 2];
+        Lanes rest = inner;
+        for (int& one : from) {
+          one = __builtin_ctz(rest);
+          if ((rest & (rest - 1)) != 0) rest &= rest - 1;  // unused lanes repeat the last one
+        }
+        LightDescent<N / 2> few = state.packed(from);
+        descend<N / 2>(nodes, few, (Lanes{1} << count) - 1);
+        for (int i = 0; i < count; ++i) {
+          state.light[from[i]] = few.light[i];
+          state.probability[from[i]] = few.probability[i];
+        }
+        return;
+      }
+    }
+    auto& [p, n, u, probability, next, light] = state;
     // Lanes that are done repeat the work of another lane, so that often all nodes are the same.
     next = mask_of<N>(inner) ? next : Unsigned<N>{} + lane(next, __builtin_ctz(inner));
     std::uint32_t indices[N];
@@ -199,15 +241,25 @@ LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const F
     const auto is_second = u >= first, is_inner = mask_of<N>(inner);
     const F share = is_second ? 1 - first : first;
     u = sampling::reused<N>(u, is_second ? first : F{}, share);
-    const F selected = child_probability<N>(choice.probability, first < 0 ? F{} : share);
-    choice.probability = is_inner ? selected : choice.probability;
+    const F selected = child_probability<N>(probability, first < 0 ? F{} : share);
+    probability = is_inner ? selected : probability;
     // Lanes without light need not descend further.
-    const Lanes lit = inner & less<N>(F{}, choice.probability);
+    const Lanes lit = inner & less<N>(F{}, probability);
     next = is_second ? children.second.children : children.first.children;
     light = mask_of<N>(lit) ? (is_second ? children.second.light : children.first.light) : light;
     inner = lit & true_lanes<N>(next != 0);
   }
-  __builtin_memcpy(choice.light, &light, sizeof light);
+}
+
+/// Selects a light for each of the `wanted` lanes. p is in the units of the tree. u is in [0, 1).
+template <int N>
+LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const Floats3<N>& n,
+                            const Float<N>& u, Lanes wanted) {
+  LightDescent<N> state{
+      p, n, u, all<N>(1), Unsigned<N>{} + nodes[0].children, Unsigned<N>{} + nodes[0].light};
+  descend<N>(nodes, state, nodes[0].children == 0 ? 0 : wanted);
+  LightChoice<N> choice{.probability = state.probability};
+  __builtin_memcpy(choice.light, &state.light, sizeof choice.light);
   return choice;
 }
 

@@ -18,6 +18,10 @@ constexpr int kBuckets = 12;
 
 using Angle = LightAngle<1>;
 
+Angle angle_of(float cosine) {
+  return Angle::of(cosine, 1);
+}
+
 /// Returns the lesser of a + b and pi.
 Angle sum(const Angle& a, const Angle& b) {
   const float sine = a.sine * b.cosine + a.cosine * b.sine;
@@ -31,10 +35,8 @@ LightCone united(const LightCone& a, const LightCone& b) {
   const float square = glm::dot(middle, middle);
   if (a.cos_o == -1 || b.cos_o == -1 || !(square > 1e-6F)) return cone;
   cone.axis = middle / std::sqrt(square);
-  const Angle to_a =
-      sum(Angle::of(std::min(glm::dot(cone.axis, a.axis), 1.0F)), Angle::of(a.cos_o));
-  const Angle to_b =
-      sum(Angle::of(std::min(glm::dot(cone.axis, b.axis), 1.0F)), Angle::of(b.cos_o));
+  const Angle to_a = sum(angle_of(std::min(glm::dot(cone.axis, a.axis), 1.0F)), angle_of(a.cos_o));
+  const Angle to_b = sum(angle_of(std::min(glm::dot(cone.axis, b.axis), 1.0F)), angle_of(b.cos_o));
   // Widens the cone slightly to compensate for rounding.
   cone.cos_o = std::max(std::min(to_a.cosine, to_b.cosine) - 1e-6F, -1.0F);
   return cone;
@@ -73,11 +75,11 @@ LightNode node_of(const LightBounds& bounds, const LightTreeSpace& space, double
   const double power = std::max(bounds.power / total_power, double{LightTreeSpace::kLeast});
   const LightCone& cone = bounds.cone;
   return {.center = {center.x, center.y, center.z},
-          .radius_square = static_cast<float>(radius * radius),
+          .radius = static_cast<float>(radius),
           .axis = {cone.axis.x, cone.axis.y, cone.axis.z},
           .power = static_cast<float>(power),
           .cos_o = cone.cos_o,
-          .sin_o = Angle::of(cone.cos_o).sine,
+          .sin_o = angle_of(cone.cos_o).sine,
           .cos_e = cone.cos_e,
           .is_two_sided = bounds.two_sided ? 1.0F : 0.0F};
 }
@@ -182,16 +184,29 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
 }
 
 float LightTree::probability(std::size_t light, const Vec3& p, const Vec3& n) const {
-  const Vec3 local = space_.point<1>(p);
+  constexpr int kLevels = 4;  // which are computed at a time, one in each lane
+  const auto all_lanes = [](const Vec3& v) {
+    return Floats3<kLevels>{all<kLevels>(v.x), all<kLevels>(v.y), all<kLevels>(v.z)};
+  };
+  const Floats3<kLevels> point = all_lanes(space_.point<1>(p)), normal = all_lanes(n);
+  std::uint64_t trail = trails_[light];
   float probability = 1;
-  std::uint32_t node = 0;
-  for (std::uint64_t trail = trails_[light]; nodes_[node].children != 0; trail >>= 1U) {
-    const std::uint32_t children = nodes_[node].children;
-    const float first = LightChildren<1>(nodes_.data(), {children}).first_probability(local, n);
-    if (first < 0) return 0;
-    const bool is_second = (trail & 1U) != 0;
-    probability = child_probability<1>(probability, is_second ? 1 - first : first);
-    node = children + (is_second ? 1 : 0);
+  for (std::uint32_t next = nodes_[0].children; next != 0;) {
+    std::uint32_t children[kLevels];
+    bool is_second[kLevels];
+    int count = 0;
+    for (; count < kLevels && next != 0; trail >>= 1U) {
+      children[count] = next;
+      is_second[count++] = (trail & 1U) != 0;
+      next = nodes_[next + (trail & 1U)].children;
+    }
+    for (int i = count; i < kLevels; ++i) children[i] = children[0];
+    const Float<kLevels> first =
+        LightChildren<kLevels>(nodes_.data(), children).first_probability(point, normal);
+    for (int i = 0; i < count; ++i) {
+      if (first[i] < 0) return 0;
+      probability = child_probability<1>(probability, is_second[i] ? 1 - first[i] : first[i]);
+    }
   }
   return probability;
 }

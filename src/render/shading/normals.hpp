@@ -16,7 +16,7 @@ template <int N>
 Tangent<N> tangent_along(const Floats3<N>& sum, const Float<N>& handedness, const Floats3<N>& n) {
   const Floats3<N> along = sum - dot(n, sum) * n;
   const Float<N> square = dot(along, along);
-  return {along / square_root<N>(square), square > 0 ? handedness : Float<N>{}};
+  return {unit<N>(along), square > 0 ? handedness : Float<N>{}};
 }
 
 /// The normal for a texel of a normal texture. Returns n if there is no tangent.

@@ -41,9 +41,8 @@ inline Lanes find_origins_of(const HitPointLanes& points, OriginLanes& lanes, in
     // walls.
     open &= ~is_there & (in_front | behind | (permanent == 0));
     if (true_double_lanes<N>(open) == 0) break;
-    const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);
-    const D moved =
-        __builtin_convertvector(neighbors<N>(x, up_floats), D) + D{};  // replaces -0 by 0
+    const Float<N> x = to_single<N>(component<N>(q, axis));
+    const D moved = to_double<N>(neighbors<N>(x, up_floats)) + D{};  // replaces -0 by 0
     for (int k = 0; k < 3; ++k) q.v[k] = (open & (axis == k)) ? moved : q.v[k];
   }
   for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);
