@@ -24,7 +24,9 @@ struct TrianglePoint {
 
 /// The surface at a hit. Valid during the lifetime of the scene. The values are computed in float64
 /// by + - * / and sqrt, so their bits are the same on every machine. The error of positions is
-/// about 1e-15 times the magnitude of the coordinates unless the shape is seen edge on.
+/// about 1e-15 times the magnitude of the coordinates, and greater near the horizon of the shape.
+/// Where a ray lies in the plane of a triangle, touches a surface or nearly does, they are computed
+/// exactly and rounded once, like the side at which the ray arrives.
 struct MICROTRACE_EXPORT SurfaceInteraction {
   DVec3 p{0};                 ///< position on the surface, not the ray's point at Hit::t
   DVec3 n{0, 0, 1};           ///< geometric normal of the front side, unit length
@@ -51,7 +53,7 @@ struct MICROTRACE_EXPORT SurfaceInteraction {
 /// Returns the surface at `hit`, which must be a hit of `ray`, in the coordinates of the ray. A
 /// triangle's front side is the side from which the vertices are counterclockwise. The front of a
 /// sphere is its outside; the front of a plane or disc is the side of the normal; the front of a
-/// quadric is the side where the polynomial is positive. Where the surface has no normal (a
+/// quadric is the side where the polynomial is positive, so a double plane has two. Where the surface has no normal (a
 /// triangle of zero area, a quadric's apex), the returned normal faces the ray.
 [[nodiscard]] MICROTRACE_EXPORT SurfaceInteraction interact(const Primitives& primitives,
                                                             const Ray& ray, const Hit& hit);

@@ -1,6 +1,7 @@
 #include "exact/implicit.hpp"
 
 #include "exact/flat.hpp"
+#include "exact/numbers/round_to_double.hpp"
 #include "exact/queries.hpp"
 #include "exact/range.hpp"
 
@@ -83,6 +84,18 @@ int Implicit::sign_behind(const Ray& ray, const Root& t, const Vec3& e) const {
   return first != 0 ? first : quadratic(direction).sign();
 }
 
+DVec3 Implicit::gradient(const Ray& ray, const Root& t) const {
+  const Vector o = vector(ray.o), d = vector(ray.d);
+  DVec3 result{0};
+  for (int k = 0; k < 3; ++k) {
+    Vec3 axis{0};
+    axis[k] = 1;
+    const Vector e = vector(axis);
+    result[k] = round_to_double(linear_in(t, slope(o, e), bilinear(d, e)));
+  }
+  return result;
+}
+
 int Implicit::zeros_ahead(const Vec3& p, const Vec3& e) const {
   const Vector origin = vector(p), direction = vector(e);
   // F(p + s e) = alpha s^2 + beta s + gamma.
@@ -109,6 +122,12 @@ bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray, cons
 Vec3 round_point(const Ray& ray, const Root& t) {
   Vec3 p{0};
   for (int k = 0; k < 3; ++k) p[k] = round_to_float(linear_in(t, ray.o[k], ray.d[k]));
+  return p;
+}
+
+DVec3 round_point_to_double(const Ray& ray, const Root& t) {
+  DVec3 p{0};
+  for (int k = 0; k < 3; ++k) p[k] = round_to_double(linear_in(t, ray.o[k], ray.d[k]));
   return p;
 }
 

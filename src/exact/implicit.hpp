@@ -37,6 +37,9 @@ class Implicit {
   /// The sign is 0 if F stays zero along e.
   [[nodiscard]] int sign_behind(const Ray& ray, const Root& t, const Vec3& e) const;
 
+  /// Returns the gradient of F at o + t d, with each component rounded to the nearest float64.
+  [[nodiscard]] DVec3 gradient(const Ray& ray, const Root& t) const;
+
   /// Returns the number of zeros of F(p + s e) with s >= 0, given F(p) != 0. The number is 0, 1 or
   /// 2; a double zero counts once.
   [[nodiscard]] int zeros_ahead(const Vec3& p, const Vec3& e) const;
@@ -59,5 +62,7 @@ class Implicit {
 
 /// Returns o + t d with each coordinate rounded to the nearest float32, ties to even.
 [[nodiscard]] Vec3 round_point(const Ray& ray, const Root& t);
+/// The same with float64.
+[[nodiscard]] DVec3 round_point_to_double(const Ray& ray, const Root& t);
 
 }  // namespace microtrace::exact

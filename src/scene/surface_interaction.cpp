@@ -1,9 +1,14 @@
+#include "exact/implicit.hpp"
+#include "exact/intersect.hpp"
 #include "scene/kernels/triangle.hpp"
 
 #include <microtrace/surface_interaction.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <variant>
 
 #include <glm/geometric.hpp>
@@ -17,47 +22,75 @@ DVec3 direction_or(const DVec3& v, const DVec3& otherwise) {
   return direction.exists ? direction.v : otherwise;
 }
 
-/// Barycentric weights of the point on the segment a b that is nearest to p.
-DVec2 nearest_on_segment(const DVec3& a, const DVec3& b, const DVec3& p) {
-  const double square = glm::dot(b - a, b - a);
-  const double s = square > 0 ? std::clamp(glm::dot(p - a, b - a) / square, 0.0, 1.0) : 0;
-  return {1 - s, s};
-}
-
 TriangleCorners<1> corners_of(const Triangle& s) {
   return {DVec3(s.a), DVec3(s.b), DVec3(s.c)};
 }
 
-/// Barycentric coordinates of the point on the longest edge that is nearest to p. Used for
-/// triangles that have no area or are seen exactly edge-on.
-DVec3 barycentrics_on_edge(const TriangleCorners<1>& t, const DVec3& p) {
+/// Barycentric coordinates of the point of a triangle that is nearest to p, which is on the
+/// triangle but for rounding. Points on edges have one weight of exactly 0.
+DVec3 barycentrics_at(const TriangleCorners<1>& t, const DVec3& p) {
   const std::array corners{t.a, t.b, t.c};
-  std::size_t longest = 0;
-  double greatest = -1;
+  DVec3 on_edge(1, 0, 0);
+  double nearest = std::numeric_limits<double>::infinity(), scale = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const DVec3 edge = corners[(i + 1) % 3] - corners[i];
+    const std::size_t j = (i + 1) % 3;
+    const DVec3 edge = corners[j] - corners[i], from = p - corners[i];
     const double square = glm::dot(edge, edge);
-    if (square > greatest) longest = i, greatest = square;
+    const double part = square > 0 ? std::clamp(glm::dot(from, edge) / square, 0.0, 1.0) : 0;
+    const DVec3 gap = from - part * edge;
+    scale = std::max({scale, magnitudes_sum(corners[i]), magnitudes_sum(p)});
+    if (!(glm::dot(gap, gap) < nearest)) continue;
+    nearest = glm::dot(gap, gap);
+    on_edge = DVec3(0);
+    on_edge[static_cast<glm::length_t>(i)] = 1 - part;
+    on_edge[static_cast<glm::length_t>(j)] = part;
   }
-  const std::size_t other = (longest + 1) % 3;
-  const DVec2 weights = nearest_on_segment(corners[longest], corners[other], p);
-  DVec3 result(0);
-  result[static_cast<glm::length_t>(longest)] = weights.x;
-  result[static_cast<glm::length_t>(other)] = weights.y;
-  return result;
+  const DVec3 area = area_vector<1>(t), from_a = p - t.a;
+  const double square = glm::dot(area, area), rounding = 0x1p-48 * scale;
+  if (nearest <= rounding * rounding || !(square > 0)) return on_edge;
+  const double v = std::max(glm::dot(glm::cross(from_a, t.c - t.a), area) / square, 0.0);
+  const double w = std::max(glm::dot(glm::cross(t.b - t.a, from_a), area) / square, 0.0);
+  const double u = std::max(1 - v - w, 0.0);
+  return DVec3(u, v, w) / (u + v + w);
 }
 
-/// Refines t, a float32 approximation of a root of a t^2 + 2 b t + c, by Newton's method as long as
-/// the result stays near t.
-double polished_root(double a, double b, double c, float t) {
-  double x = t;
-  for (int i = 0; i < 3; ++i) {
-    const double step = ((a * x + 2 * b) * x + c) / (2 * (a * x + b));
-    const double next = x - step;
-    if (!(std::abs(next - t) <= 0x1p-22 * t)) return x;
-    x = next;
+/// The polynomial a t^2 + 2 b t + c.
+struct Polynomial {
+  double a, b, c;
+
+  /// Returns the root near the float32 number t, by Newton's method. Returns nothing if float64
+  /// can't compute it, because it is nearly a double root or not near t. `sizes` are sums of the
+  /// magnitudes of the terms of a, b and c.
+  [[nodiscard]] std::optional<double> root_near(float t, const Polynomial& sizes) const {
+    const double terms = sizes.b * sizes.b + sizes.a * sizes.c;
+    if (!(std::abs(b * b - a * c) > 0x1p-28 * terms)) return std::nullopt;
+    double x = t;
+    for (int i = 0; i < 3; ++i) x -= ((a * x + 2 * b) * x + c) / (2 * (a * x + b));
+    if (!(std::abs(x - t) <= 0x1p-22 * t)) return std::nullopt;
+    return x;
   }
-  return x;
+};
+
+/// Half the gradient of a quadric's polynomial at v, with the contribution of its linear terms (g,
+/// h, i) multiplied by `weight`. With weight 2, its dot product with v is the polynomial's value
+/// minus j.
+DVec3 half_gradient(const Quadric& q, const DVec3& v, double weight) {
+  const double d = q.d, e = q.e, f = q.f;
+  return {q.a * v.x + (d * v.y + e * v.z + weight * q.g) / 2,
+          q.b * v.y + (d * v.x + f * v.z + weight * q.h) / 2,
+          q.c * v.z + (e * v.x + f * v.y + weight * q.i) / 2};
+}
+
+/// The quadric's polynomial at o + t d.
+Polynomial along(const Quadric& q, const DVec3& o, const DVec3& d) {
+  return {.a = glm::dot(d, half_gradient(q, d, 0)),
+          .b = glm::dot(d, half_gradient(q, o, 1)),
+          .c = glm::dot(o, half_gradient(q, o, 2)) + double{q.j}};
+}
+
+Quadric magnitudes_of(const Quadric& q) {
+  return {std::abs(q.a), std::abs(q.b), std::abs(q.c), std::abs(q.d), std::abs(q.e),
+          std::abs(q.f), std::abs(q.g), std::abs(q.h), std::abs(q.i), std::abs(q.j)};
 }
 
 class Interaction {
@@ -66,31 +99,35 @@ class Interaction {
       : primitives_(primitives), ray_(ray), hit_(hit), o_(ray.o), d_(ray.d) {}
 
   SurfaceInteraction operator()(const Sphere& s) const {
-    const DVec3 center(s.center), from_center = o_ - center;
-    const double r = s.radius;
-    const double t = polished_root(glm::dot(d_, d_), glm::dot(from_center, d_),
-                                   glm::dot(from_center, from_center) - r * r, hit_.t);
-    const DVec3 n = direction_or(from_center + t * d_, facing());
+    const DVec3 center(s.center), from_center = o_ - center, size = glm::abs(from_center);
+    const double r = s.radius, square = glm::dot(d_, d_);
+    const Polynomial f{.a = square,
+                       .b = glm::dot(from_center, d_),
+                       .c = glm::dot(from_center, from_center) - r * r};
+    const Polynomial sizes{.a = square,
+                           .b = glm::dot(size, glm::abs(d_)),
+                           .c = glm::dot(from_center, from_center) + r * r};
+    const std::optional<double> t = f.root_near(hit_.t, sizes);
+    if (!t) return exactly(s);
+    const DVec3 n = direction_or(from_center + *t * d_, facing());
     return at(center + r * n, n);
   }
 
-  SurfaceInteraction operator()(const Plane& s) const { return planar(s.point, s.normal); }
-  SurfaceInteraction operator()(const Disc& s) const { return planar(s.center, s.normal); }
+  SurfaceInteraction operator()(const Plane& s) const { return planar(s, s.point); }
+  SurfaceInteraction operator()(const Disc& s) const { return planar(s, s.center); }
 
   SurfaceInteraction operator()(const Quadric& q) const {
-    // The quadric's polynomial at o + t d is d.Q d t^2 + d.gradient(o) t + value(o).
-    const double a = glm::dot(d_, half_gradient(q, d_, 0));
-    const DVec3 half = half_gradient(q, o_, 1);
-    const double c = glm::dot(o_, half_gradient(q, o_, 2)) + double{q.j};
-    const DVec3 p = o_ + polished_root(a, glm::dot(d_, half), c, hit_.t) * d_;
+    const Polynomial sizes = along(magnitudes_of(q), glm::abs(o_), glm::abs(d_));
+    const std::optional<double> t = along(q, o_, d_).root_near(hit_.t, sizes);
+    if (!t) return exactly(q);
+    const DVec3 p = o_ + *t * d_;
     return at(p, direction_or(half_gradient(q, p, 1), facing()));
   }
 
   SurfaceInteraction operator()(const Triangle& s) const {
     const TriangleCorners<1> t = corners_of(s);
     const auto inside = barycentrics_of<1>(t, o_, d_);
-    const DVec3 w =
-        inside.exists ? inside.v : barycentrics_on_edge(t, o_ + static_cast<double>(hit_.t) * d_);
+    const DVec3 w = inside.exists ? inside.v : barycentrics_at(t, exact_point(s));
     SurfaceInteraction result =
         at(weighted(w, t.a, t.b, t.c), direction_or(area_vector<1>(t), facing()));
     result.front = shows_front(s, ray_.d);
@@ -122,21 +159,30 @@ class Interaction {
             .primitive = hit_.id - primitives_.first_id_of(object)};
   }
 
-  [[nodiscard]] SurfaceInteraction planar(const DVec3& point, const DVec3& normal) const {
+  [[nodiscard]] SurfaceInteraction planar(const auto& s, const DVec3& point) const {
+    const DVec3 normal(s.normal);
     const double t = glm::dot(point - o_, normal) / glm::dot(d_, normal);
-    const double t_hit = hit_.t;
-    const bool sure = std::abs(t - t_hit) <= 0x1p-22 * t_hit;
-    return at(o_ + (sure ? t : t_hit) * d_, direction_or(normal, facing()));
+    if (!(std::abs(t - hit_.t) <= 0x1p-22 * hit_.t)) return exactly(s);
+    return at(o_ + t * d_, direction_or(normal, facing()));
   }
 
-  /// Half the gradient at v, with the contribution of the polynomial's linear terms (g, h, i)
-  /// multiplied by `weight`. With weight 2, its dot product with v is the polynomial's value minus
-  /// j.
-  static DVec3 half_gradient(const Quadric& q, const DVec3& v, double weight) {
-    const double d = q.d, e = q.e, f = q.f;
-    return {q.a * v.x + (d * v.y + e * v.z + weight * q.g) / 2,
-            q.b * v.y + (d * v.x + f * v.z + weight * q.h) / 2,
-            q.c * v.z + (e * v.x + f * v.y + weight * q.i) / 2};
+  /// The point of the hit by exact arithmetic, which is slow.
+  template <class AnyShape>
+  [[nodiscard]] DVec3 exact_point(const AnyShape& s) const {
+    const auto t = exact::first_hit(s, ray_);
+    return t ? exact::round_point_to_double(ray_, *t) : o_ + double{hit_.t} * d_;
+  }
+
+  /// The surface by exact arithmetic.
+  template <class AnyShape>
+  [[nodiscard]] SurfaceInteraction exactly(const AnyShape& s) const {
+    const auto t = exact::first_hit(s, ray_);
+    if (!t) return at(exact_point(s), facing());
+    const exact::Implicit f(s);
+    SurfaceInteraction result =
+        at(exact::round_point_to_double(ray_, *t), direction_or(f.gradient(ray_, *t), facing()));
+    result.front = f.sign_behind(ray_, *t, -ray_.d) >= 0;
+    return result;
   }
 
   const Primitives& primitives_;
@@ -184,7 +230,13 @@ DVec4 SurfaceInteraction::color() const {
 }
 
 bool shows_front(const Triangle& triangle, const Vec3& d) {
-  return !(glm::dot(DVec3(d), area_vector<1>(corners_of(triangle))) > 0);
+  const TriangleCorners<1> t = corners_of(triangle);
+  const DVec3 e1 = t.b - t.a, e2 = t.c - t.a, direction(d);
+  const double slope = glm::dot(direction, glm::cross(e1, e2));
+  // Each term has at most six roundings and is at most the product of the three sums.
+  const double terms = magnitudes_sum(e1) * magnitudes_sum(e2) * magnitudes_sum(direction);
+  if (std::abs(slope) > 0x1p-48 * terms) return slope < 0;
+  return dot(exact::vector(d), exact::Implicit(triangle).linear()).sign() <= 0;
 }
 
 SurfaceInteraction interact(const Primitives& primitives, const Ray& ray, const Hit& hit) {

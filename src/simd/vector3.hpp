@@ -132,6 +132,12 @@ inline V magnitudes(const V& v) {
   return {magnitude(v.x), magnitude(v.y), magnitude(v.z)};
 }
 
+/// Returns the sum of the magnitudes of the components.
+template <class V>
+inline auto magnitudes_sum(const V& v) {
+  return magnitude(v.x) + magnitude(v.y) + magnitude(v.z);
+}
+
 /// Returns the same vector in all lanes.
 template <int N>
 inline Doubles3<N> all_lanes(const DVec3& v) {

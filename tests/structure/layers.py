@@ -16,7 +16,7 @@ MAY_INCLUDE = {
     "base": set(),
     "simd": {"base"},
     "exact": {"base"},
-    "scene": {"base", "simd"},
+    "scene": {"base", "simd", "exact"},
     "accel": {"base", "simd", "exact", "scene"},
     "queries": {"base", "simd", "exact", "scene", "accel"},
     "render": {"base", "simd", "scene", "accel"},

@@ -1,5 +1,6 @@
 #pragma once
-/// Rounds exact numbers to float64, for display. Decisions never depend on the results.
+/// Rounds exact numbers to float64, for display and for points on surfaces. Decisions about hits
+/// never depend on the results.
 
 #include "exact/numbers/root.hpp"
 

@@ -6,12 +6,6 @@
 
 namespace microtrace {
 
-/// The sum of the magnitudes of the components.
-template <int N>
-Double<N> magnitudes_sum(const Doubles3<N>& v) {
-  return magnitude(Double<N>(v.x)) + magnitude(Double<N>(v.y)) + magnitude(Double<N>(v.z));
-}
-
 /// Computes the points of the N paths that start at lane i. Intersects the rays with the planes of
 /// the triangles in float64.
 template <int N, int width>
@@ -28,7 +22,7 @@ void intersect_planes(HitArrays<width>& hits, int i) {
   // Each term of `slope` has at most six roundings and is at most the product of the three sums. If
   // the triangle is not nearly edge-on, the relative error of `slope` is therefore below 2^-26. The
   // test fails for triangles without area.
-  const D terms = magnitudes_sum<N>(e1) * magnitudes_sum<N>(e2) * magnitudes_sum<N>(d);
+  const D terms = magnitudes_sum(e1) * magnitudes_sum(e2) * magnitudes_sum(d);
   const auto is_sure = (square > 0) & (magnitude(D(slope)) > 0x1p-24 * terms);
   narrowed<N>(is_sure ? one : zero, hits.is_sure + i);
   const V p = o + t * d, from_a = p - a;

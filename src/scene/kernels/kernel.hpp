@@ -55,7 +55,7 @@ struct PerspectiveRays {
 struct SceneKernels {
   const char* name;
   /// Computes the surfaces at the rays' hits in the lanes with triangles. Returns the lanes with
-  /// valid results. Results are invalid for triangles that have no area or are seen edge-on.
+  /// valid results. Results are invalid for triangles that have no area or are seen nearly edge-on.
   std::uint64_t (*find_surfaces)(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch);
   /// Sets rays[i] to the ray through the pixel coordinates (x[i], y[i]).
   void (*perspective_rays)(const PerspectiveRays& camera, const double* x, const double* y,

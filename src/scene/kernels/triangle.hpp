@@ -34,21 +34,28 @@ inline Doubles3<N> area_vector(const TriangleCorners<N>& t) {
   return cross(t.b - t.a, t.c - t.a);
 }
 
-/// Barycentric coordinates of the point where the ray meets the triangle's plane. A vertex's weight
-/// is proportional to the volume spanned by the ray and the opposite edge. None for triangles that
-/// have no area or are seen exactly edge-on.
+/// Barycentric coordinates of the point where the ray meets the triangle's plane (T. Moeller and B.
+/// Trumbore, Fast, minimum storage ray/triangle intersection, 1997). They exist if the triangle has
+/// an area and is not seen nearly edge-on: each term of the determinant has at most six roundings
+/// and is at most the product of the three sums, so the relative error of the determinant is then
+/// below 2^-26, and its sign is certain.
 template <int N>
 inline auto barycentrics_of(const TriangleCorners<N>& t, const Doubles3<N>& o,
                             const Doubles3<N>& d) {
+  using D = Double<N>;
   using V = Doubles3<N>;
-  const V a = t.a - o, b = t.b - o, c = t.c - o;
-  const V volumes{dot(d, cross(c, b)), dot(d, cross(a, c)), dot(d, cross(b, a))};
-  const Double<N> sum = volumes.x + volumes.y + volumes.z, zero{};
+  const V e1 = t.b - t.a, e2 = t.c - t.a, from_a = o - t.a;
+  const V across = cross(d, e2), up = cross(from_a, e1);
+  const D determinant = dot(e1, across), zero{};
+  const D terms = magnitudes_sum(e1) * magnitudes_sum(e2) * magnitudes_sum(d);
+  const auto exists = magnitude(determinant) > 0x1p-24 * terms;
   // The hit is inside the triangle, but rounding can give slightly negative weights.
-  const V weights = greatest_components(V(volumes / sum), V{zero, zero, zero});
-  const Double<N> total = weights.x + weights.y + weights.z;
-  const auto exists = (total > 0) & (total <= kGreatestDouble);
-  return Maybe3<N, decltype(exists)>{weights / total, exists};
+  const D inverse = 1 / determinant;
+  const D v = larger_of(D(dot(from_a, across) * inverse), zero);
+  const D w = larger_of(D(dot(d, up) * inverse), zero);
+  const D u = larger_of(D(1 - v - w), zero);
+  const V weights{u, v, w};
+  return Maybe3<N, decltype(exists)>{weights * (1 / (u + v + w)), exists};
 }
 
 /// The sum of the values at the corners, weighted by barycentric coordinates w.

@@ -3,6 +3,7 @@
 #include <microtrace/surface_interaction.hpp>
 
 #include <cmath>
+#include <random>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -142,6 +143,76 @@ TEST(SurfaceInteraction, ApexFacesTheRay) {
   const Quadric cone{.a = 1, .b = -1, .c = 1};
   const SurfaceInteraction met = meet(cone, {.o = {0, 0, 5}, .d = {0, 0, -1}});
   expect_near(met.n, {0, 0, 1});
+}
+
+TEST(SurfaceInteraction, RaysInThePlaneOfATriangleMeetItWhereTheyEnter) {
+  const Ray along{.o = {-1, 0.25F, 0}, .d = {1, 0, 0}};
+  const SurfaceInteraction entering = meet(corner(), along);
+  EXPECT_EQ(entering.p, DVec3(0, 0.25, 0));
+  EXPECT_EQ(entering.triangle->barycentrics, DVec3(0.75, 0, 0.25));
+  EXPECT_TRUE(entering.front);
+  const SurfaceInteraction inside = meet(corner(), {.o = {0.25F, 0.25F, 0}, .d = {1, 0, 0}});
+  EXPECT_EQ(inside.p, DVec3(0.25, 0.25, 0));
+  expect_near(inside.triangle->barycentrics, {0.5, 0.25, 0.25});
+}
+
+// The values of these rays are exact in float32, so the rays lie in the triangles' planes although
+// no coordinate is 0.
+TEST(SurfaceInteraction, PointsOfRaysInObliquePlanesAreOnTheRays) {
+  std::minstd_rand random(1);
+  const auto number = [&] { return static_cast<float>(static_cast<int>(random() % 33) - 16); };
+  int met = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 a(number(), number(), number()), b(number(), number(), number()),
+        c(number(), number(), number());
+    const Vec3 d = (b - a) * number() + (c - a) * number();
+    const Vec3 o = a + (b - a) * number() + (c - a) * number() - d * 4.0F;
+    if (d == Vec3(0)) continue;
+    Scene scene;
+    scene.objects.push_back({.name = "one", .shape = Triangle{a, b, c}});
+    const Bvh bvh(scene);
+    const Ray ray{.o = o, .d = d};
+    const auto hit = bvh.intersect(ray);
+    if (!hit) continue;
+    ++met;
+    const DVec3 on_ray = DVec3(o) + double{hit->t} * DVec3(d);
+    const double size = glm::length(DVec3(o)) + glm::length(double{hit->t} * DVec3(d));
+    EXPECT_LT(glm::length(interact(bvh.primitives(), ray, *hit).p - on_ray), 0x1p-22 * size);
+  }
+  EXPECT_GT(met, 400);
+}
+
+// A double plane has two fronts, because its polynomial is positive on both sides.
+TEST(SurfaceInteraction, DoublePlanesShowTheirFronts) {
+  for (int i = 0; i < 100; ++i) {
+    const auto x = static_cast<float>(i);
+    const Ray ray{.o = {-3.3F, 0.1F, 5.7F}, .d = {0.57F + 0.001F * x, 0.013F * x, -1}};
+    const SurfaceInteraction plane = meet(Quadric{.c = 1}, ray);
+    EXPECT_TRUE(plane.front);
+    EXPECT_EQ(plane.p.z, 0);
+    expect_near(plane.n, -glm::normalize(DVec3(ray.d)));
+    EXPECT_FALSE(meet(Quadric{.c = -1}, ray).front);
+  }
+}
+
+TEST(SurfaceInteraction, TangentsTouchTheFrontsOfSpheres) {
+  const SurfaceInteraction touched = meet(Sphere{{0, 0, 0}, 3}, {.o = {-5, 3, 0}, .d = {1, 0, 0}});
+  EXPECT_TRUE(touched.front);
+  EXPECT_EQ(touched.p, DVec3(0, 3, 0));
+  EXPECT_EQ(touched.n, DVec3(0, 1, 0));
+}
+
+TEST(SurfaceInteraction, SidesOfTrianglesAreExact) {
+  // n . d is positive, but float64 gives a negative number.
+  const Triangle triangle{{2, 0, -1}, {0x1p-61F, 0x1p-60F, 0x1p-60F}, {0, 0x1p-41F, 0}};
+  EXPECT_FALSE(shows_front(triangle, {0x1.8p-62F, -0x1.ffffcp-43F, 0x1.8p-63F}));
+  EXPECT_TRUE(shows_front(triangle, {-0x1.8p-62F, 0x1.ffffcp-43F, -0x1.8p-63F}));
+}
+
+// Position and t are finite in float64 where t exceeds float32.
+TEST(SurfaceInteraction, DistantPointsOfQuadricsAreFinite) {
+  const Ray ray{.o = {3, 4, -4}, .d = {0x1p-149F, 0, 0}};
+  EXPECT_EQ(meet(Quadric{.a = 1, .b = -1}, ray).p, DVec3(4, 4, -4));
 }
 
 }  // namespace
