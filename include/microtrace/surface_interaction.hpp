@@ -53,8 +53,9 @@ struct MICROTRACE_EXPORT SurfaceInteraction {
 /// Returns the surface at `hit`, which must be a hit of `ray`, in the coordinates of the ray. A
 /// triangle's front side is the side from which the vertices are counterclockwise. The front of a
 /// sphere is its outside; the front of a plane or disc is the side of the normal; the front of a
-/// quadric is the side where the polynomial is positive, so a double plane has two. Where the surface has no normal (a
-/// triangle of zero area, a quadric's apex), the returned normal faces the ray.
+/// quadric is the side where the polynomial is positive, so a double plane has two. Where the
+/// surface has no normal (a triangle of zero area, a quadric's apex), the returned normal faces the
+/// ray.
 [[nodiscard]] MICROTRACE_EXPORT SurfaceInteraction interact(const Primitives& primitives,
                                                             const Ray& ray, const Hit& hit);
 
