@@ -28,7 +28,7 @@ enum class Aov {
   distance,     ///< T: distance along the ray from the camera's position; for an orthographic
                 ///< camera, from the plane through its position
   position,     ///< X, Y, Z
-  normal,       ///< X, Y, Z: the shading normal, facing the viewer; unit length
+  normal,       ///< X, Y, Z: the shading normal of the side that the viewer sees; unit length
   face_normal,  ///< X, Y, Z: the geometric normal, facing the viewer; unit length
   uv,           ///< U, V: texture coordinates of set 0
   barycentric,  ///< X, Y, Z: barycentric weights of the triangle's vertices; 0 for other shapes

@@ -119,7 +119,7 @@ struct DatasetOptions {
 
 struct ExplainArguments {
   std::optional<DVec2> pixel{};  ///< as in RayGenerator
-  std::optional<Ray> ray{};      ///< in world space
+  std::optional<WorldRay> ray{};
   bool is_json = false;
   bool is_all = false;
 };

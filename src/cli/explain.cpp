@@ -59,9 +59,10 @@ void explain_ray(const Arguments& arguments) {
   ExplainOptions options;
   if (arguments.explain.is_all)
     options.max_hits = options.max_misses = std::numeric_limits<std::size_t>::max();
-  const Explanation explanation = arguments.explain.ray
-                                      ? explain(scene, *arguments.explain.ray, options)
-                                      : explain_pixel(scene, arguments, options);
+  const std::optional<WorldRay>& ray = arguments.explain.ray;
+  const Explanation explanation =
+      ray ? explain_in_scene(scene, ray->in_scene(scene.scene().origin), options)
+          : explain_pixel(scene, arguments, options);
   const std::string text =
       arguments.explain.is_json ? explanation_json(explanation) : explanation_text(explanation);
   if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)

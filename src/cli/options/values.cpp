@@ -99,18 +99,20 @@ DVec2 parse_pixel(const OptionValue& value) {
   return DVec2(numbers[0], numbers[1]) + 0.5;
 }
 
-Ray parse_ray(const OptionValue& value) {
-  std::vector<float> numbers;
+WorldRay parse_ray(const OptionValue& value) {
+  std::vector<double> origin;
+  std::vector<float> numbers;  // of the origin too
   for (const std::string_view part : split_at_commas(value.text)) {
     const auto number = parse_float(part);
     const bool may_be_infinite = numbers.size() == 7;  // t_max
     if (!number || std::isnan(*number) || (std::isinf(*number) && !may_be_infinite))
       value.refuse("numbers of float32, of which only t_max may be inf");
     numbers.push_back(*number);
+    if (origin.size() < 3) origin.push_back(numbers_of(part).front());
   }
   if (numbers.size() != 6 && numbers.size() != 8)
     value.refuse("six numbers ox,oy,oz,dx,dy,dz, or eight with t_min,t_max");
-  Ray ray{.o = {numbers[0], numbers[1], numbers[2]}, .d = {numbers[3], numbers[4], numbers[5]}};
+  WorldRay ray{.o = {origin[0], origin[1], origin[2]}, .d = {numbers[3], numbers[4], numbers[5]}};
   if (ray.d == Vec3(0)) refuse_usage(value.option + ": the direction must not be 0");
   if (numbers.size() == 8) ray.t_min = numbers[6], ray.t_max = numbers[7];
   if (!(0 <= ray.t_min && ray.t_min <= ray.t_max))

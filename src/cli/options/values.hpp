@@ -31,8 +31,19 @@ namespace microtrace::cli {
 /// Parses x,y, where 0,0 is the center of the first pixel. Returns pixel coordinates as in
 /// RayGenerator.
 [[nodiscard]] DVec2 parse_pixel(const OptionValue& value);
+/// A ray in world space, where float32 may be too coarse for origins.
+struct WorldRay {
+  DVec3 o{0};
+  Vec3 d{0, 0, 1};
+  float t_min = Ray{}.t_min, t_max = Ray{}.t_max;
+
+  /// The ray in the coordinates of a scene with this origin.
+  [[nodiscard]] Ray in_scene(const DVec3& origin) const {
+    return {.o = Vec3(o - origin), .t_min = t_min, .d = d, .t_max = t_max};
+  }
+};
 /// Parses ox,oy,oz,dx,dy,dz or, with the interval, ox,oy,oz,dx,dy,dz,t_min,t_max.
-[[nodiscard]] Ray parse_ray(const OptionValue& value);
+[[nodiscard]] WorldRay parse_ray(const OptionValue& value);
 
 /// The viewing direction of --view.
 struct OrbitView {

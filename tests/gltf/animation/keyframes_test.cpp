@@ -35,6 +35,16 @@ TEST(GltfKeyframes, StepsHoldUntilTheNextKey) {
   EXPECT_THAT(value_at(step, 1.999999), ElementsAre(10));
   EXPECT_THAT(value_at(step, 2), ElementsAre(20));
   EXPECT_THAT(value_at(step, 3.5), ElementsAre(20));
+  for (const float fps : {23.976F, 24.0F, 25.0F, 30.0F, 60.0F}) {
+    std::vector<float> times, values;
+    for (int frame = 0; frame < 1000; ++frame) {
+      times.push_back(static_cast<float>(frame) / fps);
+      values.push_back(static_cast<float>(frame));
+    }
+    const Keyframes frames = keys(Interpolation::step, times, values);
+    for (int frame = 0; frame < 1000; ++frame)
+      EXPECT_THAT(value_at(frames, frame / double{fps}), ElementsAre(frame)) << fps;
+  }
   EXPECT_THAT(value_at(step, 4), ElementsAre(40));
 }
 

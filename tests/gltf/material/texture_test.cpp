@@ -259,7 +259,8 @@ TEST(GltfMaterial, VariantsAreSelectedByNameOrIndex) {
   const auto green =
       asset.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 1}}}}});
   asset.json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
-      {{"material", green}, {"variants", {1}}}};
+      {{"material", green}, {"variants", {1}}},
+      {{"material", 0}, {"variants", {1}}}};  // the first material counts
   const auto color = [&](const std::string& variant) {
     return color_of(parse_scene(asset.embedded(), "test.gltf", "", {.variant = variant}), 0);
   };

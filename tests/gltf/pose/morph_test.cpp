@@ -54,6 +54,20 @@ TEST(GltfMorph, NodeWeightsReplaceMeshWeights) {
               ElementsAre(Vec3(0, 0, 8), Vec3(2, 0, 0), Vec3(0, 18, 0)));
 }
 
+// glTF requires the same number of targets of all primitives.
+TEST(GltfMorph, PrimitivesMayHaveFewerTargetsThanLaterOnes) {
+  AssetBuilder asset = morphed_triangle();
+  asset.json["meshes"][0]["weights"] = {0.5, -2};
+  auto& primitives = asset.json["meshes"][0]["primitives"];
+  const Json plain = {{"attributes", {{"POSITION", primitives[0]["attributes"]["POSITION"]}}}};
+  const Json morphed = primitives[0];
+  primitives = {plain, morphed};
+  const LoadedScene loaded = load(asset);
+  EXPECT_THAT(first_mesh(loaded).positions, ElementsAre(Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
+  EXPECT_THAT(std::get<Mesh>(loaded.scene.objects.at(1).shape).positions,
+              ElementsAre(Vec3(-2, 0, 2), Vec3(-1, 0, 0), Vec3(-2, 5, 0)));
+}
+
 TEST(GltfMorph, AnimationsSetWeights) {
   AssetBuilder asset = morphed_triangle();
   asset.json["meshes"][0]["weights"] = {7, 7};

@@ -1,4 +1,5 @@
 #include "gltf/asset_builder.hpp"
+#include "io/gltf/scene/scene.hpp"
 
 #include <cmath>
 
@@ -92,6 +93,27 @@ TEST(GltfSkin, TheNodesTransformIsIgnored) {
   const LoadedScene loaded = load(asset);
   EXPECT_EQ(posed_mesh(loaded).positions, straight);
   EXPECT_EQ(posed_mesh(loaded).triangles, posed_mesh(load(arm())).triangles);
+}
+
+// The node's ignored transform must not translate the scene away from the mesh.
+TEST(GltfSkin, JointsDecideWhetherTheSceneIsFarAway) {
+  const auto open = [](const AssetBuilder& asset) {
+    const std::string bytes = asset.embedded();
+    return io::GltfFile(bytes, "test.gltf", "nowhere").at(std::nullopt).scene;
+  };
+  AssetBuilder asset = arm();
+  asset.json["nodes"][0]["translation"] = {1e8, 0, 0};
+  Scene scene = open(asset);
+  EXPECT_EQ(scene.origin, DVec3(0));
+  EXPECT_EQ(std::get<Mesh>(scene.objects.at(0).shape).positions, straight);
+
+  asset = arm();
+  asset.json["nodes"][1]["translation"] = {1e8, 0, 0};
+  scene = open(asset);
+  EXPECT_GT(scene.origin.x, 0.9e8);
+  const Mesh& mesh = std::get<Mesh>(scene.objects.at(0).shape);
+  for (std::size_t i = 0; i < straight.size(); ++i)
+    EXPECT_EQ(DVec3(mesh.positions[i]) + scene.origin, DVec3(straight[i]) + DVec3(1e8, 0, 0));
 }
 
 TEST(GltfSkin, InverseBindMatricesDefaultToIdentity) {

@@ -16,7 +16,7 @@ std::string list_of_animations(const Asset& asset) {
   for (std::size_t i = 0; i < std::min(animations.size(), kShown); ++i) {
     result += (i == 0 ? " " : ", ") + std::to_string(i);
     const JsonValue* name = animations[i].find("name");
-    if (name != nullptr) result += " (" + printable(name->string.substr(0, 64)) + ")";
+    result += name != nullptr ? " (" + printable(name->string.substr(0, 64)) + ")" : " (unnamed)";
   }
   if (animations.size() > kShown) result += ", ... " + std::to_string(animations.size() - 1);
   return result;

@@ -27,12 +27,14 @@ std::vector<float> flattened(const std::vector<Vector>& vectors) {
   return result;
 }
 
-/// Returns the number of morph targets of the mesh's first primitive. In glTF, all primitives of a
-/// mesh have the same number.
+/// Returns the number of morph targets of the mesh's primitive with the most, see
+/// morph_target_count.
 std::size_t target_count(const Model& model, std::optional<std::size_t> mesh) {
-  if (!mesh) return 0;
-  const auto& primitives = model.meshes[*mesh].primitives;
-  return primitives.empty() ? 0 : primitives[0].targets.size();
+  std::size_t most = 0;
+  if (!mesh) return most;
+  for (const Model::Primitive& primitive : model.meshes[*mesh].primitives)
+    most = std::max(most, primitive.targets.size());
+  return most;
 }
 
 }  // namespace

@@ -53,8 +53,14 @@ std::vector<double> cubic(const Keyframes& keys, std::size_t key, double t, doub
   return result;
 }
 
+/// Frames are at multiples of 1 / fps, but the keys that were authored there have times in float32,
+/// which may be a few units in the last place greater. The factor lets a step show its key in that
+/// frame instead of in the next one.
+constexpr double kReached = 1 + 0x1p-21;
+
 std::vector<double> between_keys(const Keyframes& keys, double time) {
   const std::vector<float>& times = *keys.times;
+  if (keys.interpolation == Interpolation::step) time *= kReached;
   if (!(time > times.front())) return at_key(keys, 0);
   if (time >= times.back()) return at_key(keys, times.size() - 1);
   const auto after = std::upper_bound(times.begin(), times.end(), time);

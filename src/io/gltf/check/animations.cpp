@@ -138,11 +138,7 @@ class AnimationCheck {
   [[nodiscard]] std::size_t morph_targets(const JsonValue& node) const {
     const JsonValue* mesh = node.find("mesh");
     if (mesh == nullptr) return 0;
-    const JsonValue& json = asset_.array("meshes")[static_cast<std::size_t>(mesh->number)];
-    const std::vector<JsonValue>& primitives = json.find("primitives")->items;
-    if (primitives.empty()) return 0;
-    const JsonValue* targets = primitives[0].find("targets");
-    return targets != nullptr ? targets->items.size() : 0;
+    return morph_target_count(asset_.array("meshes")[static_cast<std::size_t>(mesh->number)]);
   }
 
   bool output(const Element& sampler, const std::string& path, std::size_t targets) {

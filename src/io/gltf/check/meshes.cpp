@@ -60,6 +60,11 @@ bool is_quantized(std::string_view name, const Format& f, bool of_target) {
   return name == "TEXCOORD" && f.type == "VEC2" && is_short;
 }
 
+std::size_t target_count(const JsonValue& primitive) {
+  const JsonValue* targets = primitive.find("targets");
+  return targets != nullptr ? targets->items.size() : 0;
+}
+
 class MeshCheck {
  public:
   MeshCheck(Asset& asset, AccessorHeads& accessors)
@@ -73,7 +78,7 @@ class MeshCheck {
     std::size_t targets = 0;
     for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
       const Element primitive = primitives.item(k);
-      const std::size_t count = target_count(primitive);
+      const std::size_t count = target_count(*primitive.value);
       if (k == 0) targets = count;
       if (count != targets) {
         asset_.tolerate(primitive, "has " + std::to_string(count) +
@@ -82,15 +87,10 @@ class MeshCheck {
       }
       this->primitive(primitive);
     }
-    check_weights(asset_, at, targets);
+    check_weights(asset_, at, morph_target_count(*at.value));
   }
 
  private:
-  static std::size_t target_count(const Element& primitive) {
-    const JsonValue* targets = primitive.value->find("targets");
-    return targets != nullptr ? targets->items.size() : 0;
-  }
-
   void primitive(const Element& at) {
     const Element attributes = at.member("attributes");
     same_counts(attributes);
@@ -98,7 +98,7 @@ class MeshCheck {
     this->attributes(attributes, false);
     if (at.value->find("indices") != nullptr) indices(at.member("indices"));
     const Element targets = at.member("targets");
-    for (std::size_t i = 0; i < target_count(at); ++i) target(targets.item(i), attributes);
+    for (std::size_t i = 0; i < target_count(*at.value); ++i) target(targets.item(i), attributes);
     material(at, attributes);
   }
 
@@ -252,6 +252,13 @@ class MeshCheck {
 };
 
 }  // namespace
+
+std::size_t morph_target_count(const JsonValue& mesh) {
+  std::size_t most = 0;
+  for (const JsonValue& primitive : mesh.find("primitives")->items)
+    most = std::max(most, target_count(primitive));
+  return most;
+}
 
 void check_meshes(Asset& asset, AccessorHeads& accessors) {
   MeshCheck check(asset, accessors);

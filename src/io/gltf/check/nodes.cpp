@@ -19,9 +19,7 @@ std::vector<MeshParts> mesh_parts(const Asset& asset) {
   for (const JsonValue& mesh : asset.array("meshes")) {
     const std::vector<JsonValue>& primitives = mesh.find("primitives")->items;
     MeshParts parts;
-    if (!primitives.empty() && primitives[0].find("targets") != nullptr) {
-      parts.targets = primitives[0].find("targets")->items.size();
-    }
+    parts.targets = morph_target_count(mesh);
     parts.has_joints = std::ranges::all_of(primitives, [](const JsonValue& primitive) {
       return primitive.find("attributes")->find("JOINTS_0") != nullptr;
     });

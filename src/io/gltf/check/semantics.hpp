@@ -27,6 +27,10 @@ void check_nodes(Asset& asset, const NodeForest& forest);
 void check_skins(Asset& asset, AccessorHeads& accessors, const NodeForest& forest);
 void check_animations(Asset& asset, AccessorHeads& accessors);
 
+/// Returns the number of morph targets of a mesh: that of the primitive with the most. glTF 2.0
+/// requires the same number of all primitives.
+[[nodiscard]] std::size_t morph_target_count(const JsonValue& mesh);
+
 /// Drops the weights of a mesh or node if their number differs from that of its morph targets.
 void check_weights(Asset& asset, const Element& at, std::size_t targets);
 

@@ -48,9 +48,9 @@ void choose_variant(const Asset& asset, const std::string& variant, Model& model
         const JsonValue* material = mapping.find("material");
         if (variants == nullptr || material == nullptr) continue;
         const auto is_wanted = [wanted](const JsonValue& item) { return item.number == wanted; };
-        if (std::ranges::any_of(variants->items, is_wanted)) {
-          model.meshes[i].primitives[k].material = static_cast<std::size_t>(material->number);
-        }
+        if (!std::ranges::any_of(variants->items, is_wanted)) continue;
+        model.meshes[i].primitives[k].material = static_cast<std::size_t>(material->number);
+        break;  // glTF allows only one material for a variant
       }
     }
   }

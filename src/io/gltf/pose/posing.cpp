@@ -2,6 +2,7 @@
 
 #include "io/gltf/pose/baking.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace microtrace::io::gltf {
@@ -21,6 +22,16 @@ const std::vector<double>& Poser::weights(std::size_t index) const {
   const Model::Node& node = model_.nodes[index];
   if (!node.weights.empty()) return node.weights;
   return model_.meshes[*node.mesh].weights;
+}
+
+std::vector<DMat4> Poser::world_from_mesh_by_joint(std::size_t index) {
+  const Model::Node& node = model_.nodes[index];
+  if (!node.skin || !node.mesh) return {};
+  const auto has_joints = [](const Model::Primitive& primitive) {
+    return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
+  };
+  if (!std::ranges::any_of(model_.meshes[*node.mesh].primitives, has_joints)) return {};
+  return skins_.matrices(*node.skin);
 }
 
 bool Poser::is_rigid(std::size_t index, const Surface& surface) const {

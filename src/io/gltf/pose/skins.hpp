@@ -49,8 +49,10 @@ class Skins {
   [[nodiscard]] std::optional<JointBlend> blend(std::size_t skin, std::size_t mesh,
                                                 const Surface& surface);
 
- private:
+  /// Returns the transforms of a mesh by each of the skin's joints.
   const std::vector<DMat4>& matrices(std::size_t skin);
+
+ private:
   void check_weights(const Element& attributes, JointBlend& blend);
 
   Asset& asset_;

@@ -10,8 +10,8 @@ void add_corners(const PointBounds& box, const DMat4& world_from_box, PointBound
 }  // namespace
 
 PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
-                      const std::vector<std::vector<Surface>>& surfaces,
-                      const Instances& instances) {
+                      const std::vector<std::vector<Surface>>& surfaces, const Instances& instances,
+                      Poser& poser) {
   std::vector<PointBounds> boxes(surfaces.size());  // by mesh
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     for (const Surface& surface : surfaces[i]) {
@@ -22,10 +22,13 @@ PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
   PointBounds result;
   for (const PlacedNode& placed : nodes) {
     const Model::Node& node = model.nodes[placed.node];
-    if (node.camera || node.skin) result.add(DVec3(placed.world_from_node[3]));
+    if (node.camera) result.add(DVec3(placed.world_from_node[3]));
     if (!node.mesh || !placed.visible) continue;
     const PointBounds& box = boxes[*node.mesh];
     if (!(box.low.x <= box.high.x)) continue;
+    const std::vector<DMat4> by_joint = poser.world_from_mesh_by_joint(placed.node);
+    for (const DMat4& world_from_mesh : by_joint) add_corners(box, world_from_mesh, result);
+    if (!by_joint.empty()) continue;
     if (const std::vector<DMat4>* each = instances.of(placed.node)) {
       for (const DMat4& instance : *each)
         add_corners(box, placed.world_from_node * instance, result);

@@ -225,8 +225,10 @@ LoadedScene GltfFile::at(std::optional<double> time) {
     const gltf::PosedAsset pose = content_->pose(time);
     Asset unheard = content_->asset;
     const std::vector<PlacedNode> nodes = content_->tree.place(unheard, DMat4(1), pose.nodes);
+    gltf::Poser poser(unheard, content_->model, content_->reader, content_->tree, pose.nodes,
+                      DMat4(1));
     const DVec3 way = translation_to_origin(
-        gltf::bounds_of(content_->model, nodes, content_->surfaces, content_->instances));
+        gltf::bounds_of(content_->model, nodes, content_->surfaces, content_->instances, poser));
     LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way), 1);
     result.scene.origin = -way;
     return result;
