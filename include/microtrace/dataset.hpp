@@ -85,8 +85,8 @@ class MICROTRACE_EXPORT DatasetFolder {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const DatasetIdentity& identity() const { return identity_; }
 
-  /// Returns the files of a finished view; nothing if the view is not finished. Throws Error: io;
-  /// invalid_scene if the record is damaged.
+  /// Returns the files of a finished view; nothing if the view is not finished or its record is
+  /// damaged. Throws Error (io).
   [[nodiscard]] std::optional<std::vector<DatasetFile>> files(std::uint32_t view) const;
 
   /// True if the view is finished and its files are whole.
@@ -97,6 +97,10 @@ class MICROTRACE_EXPORT DatasetFolder {
 
   /// Returns the number of views that are not finished.
   [[nodiscard]] std::uint32_t missing() const;
+
+  /// Returns the files that `manifest.json` lists. Throws Error: io; invalid_scene if it is
+  /// damaged.
+  [[nodiscard]] std::vector<DatasetFile> manifest() const;
 
   /// Writes `manifest.json`, the list of all files of finished views and of the files `more`, with
   /// sizes and digests. Throws Error.

@@ -1,4 +1,3 @@
-#include "base/printable.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file.hpp"
 #include "io/json/reader.hpp"
@@ -19,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using io::JsonReader;
 
-constexpr std::size_t kMaxRecord = std::size_t{64} << 20U;  ///< bytes of a JSON file of ours
+constexpr std::size_t kMaxRecord = std::size_t{64} << 20U;    ///< bytes of a JSON file of ours
+constexpr std::size_t kMaxManifest = std::size_t{16} << 30U;  ///< bytes of manifest.json
 
 std::string hexadecimal(std::uint64_t number) {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -85,6 +85,17 @@ DatasetIdentity read_identity(const fs::path& path) {
   return identity;
 }
 
+std::vector<DatasetFile> read_files(const JsonReader& json) {
+  std::vector<DatasetFile> files;
+  for (const JsonReader& item : json.items()) {
+    item.require_object({"name", "size", "digest"});
+    files.push_back({.name = item.member("name").string(),
+                     .size = item.member("size").count(),
+                     .digest = read_hexadecimal(item.member("digest"))});
+  }
+  return files;
+}
+
 /// Returns the first difference between two data sets.
 std::optional<std::string> difference(const DatasetIdentity& a, const DatasetIdentity& b) {
   if (a.program != b.program) return "another version, " + a.program + " instead of " + b.program;
@@ -111,6 +122,22 @@ void write_file(const fs::path& path, std::string_view text) {
   io::AtomicFile file(path);
   file.write(text);
   file.commit();
+}
+
+/// Writes the identity unless there is one. Returns false if there is.
+bool write_identity(const fs::path& path, const DatasetIdentity& identity) {
+  const std::string text = text_of(identity);
+  try {
+    const io::JsonDocument readable(text, path.string());
+  } catch (const Error&) {
+    throw Error(ErrorKind::usage, path.string(),
+                "can't contain names that are not UTF-8, such as that of the scene, of the current "
+                "folder or in an option; rename them");
+  }
+  io::AtomicFile file(path);
+  file.write(text);
+  file.sync();
+  return file.commit_new();
 }
 
 /// Reads a file in parts. Nothing if it doesn't exist.
@@ -154,18 +181,17 @@ DatasetFolder::DatasetFolder(fs::path path, const DatasetIdentity& identity)
   create_folder(path_);
   const fs::path file = path_ / "dataset.json";
   std::error_code error;
-  if (fs::exists(file, error)) {
-    const DatasetIdentity found = read_identity(file);
-    if (const auto reason = difference(found, identity)) {
+  const bool exists = fs::exists(file, error);
+  if (!exists && !is_unused(path_)) {
+    throw Error(ErrorKind::usage, path_.string(),
+                "contains files that are not a data set; name another folder");
+  }
+  // Another process may start a data set in the same folder at the same time.
+  if (exists || !write_identity(file, identity)) {
+    if (const auto reason = difference(read_identity(file), identity)) {
       throw Error(ErrorKind::usage, path_.string(),
                   "contains a data set of " + *reason + "; name another folder");
     }
-  } else {
-    if (!is_unused(path_)) {
-      throw Error(ErrorKind::usage, path_.string(),
-                  "contains files that are not a data set; name another folder");
-    }
-    write_file(file, text_of(identity));
   }
   create_folder(path_ / "records");
 }
@@ -182,17 +208,23 @@ std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view)
   std::error_code error;
   if (!fs::exists(path, error)) return std::nullopt;
   const std::string text = io::read_file(path, kMaxRecord);
-  const io::JsonDocument document(text, path.string());
-  const JsonReader root(document);
-  root.require_object({"view", "files"});
-  std::vector<DatasetFile> files;
-  for (const JsonReader& item : root.member("files").items()) {
-    item.require_object({"name", "size", "digest"});
-    files.push_back({.name = item.member("name").string(),
-                     .size = item.member("size").count(),
-                     .digest = read_hexadecimal(item.member("digest"))});
+  // A power failure can leave a record without its content.
+  try {
+    const io::JsonDocument document(text, path.string());
+    const JsonReader root(document);
+    root.require_object({"view", "files"});
+    return read_files(root.member("files"));
+  } catch (const Error& failure) {
+    if (failure.kind() != ErrorKind::invalid_scene) throw;
+    return std::nullopt;
   }
-  return files;
+}
+
+std::vector<DatasetFile> DatasetFolder::manifest() const {
+  const fs::path path = path_ / "manifest.json";
+  const std::string text = io::read_file(path, kMaxManifest);
+  const io::JsonDocument document(text, path.string());
+  return read_files(JsonReader(document));
 }
 
 std::optional<std::string> first_damaged(const fs::path& folder,
@@ -235,7 +267,10 @@ void DatasetFolder::write_manifest(std::span<const std::string> more) const {
     separator = ",\n";
   };
   for (std::uint32_t view = 0; view < identity_.views; ++view) {
-    for (const DatasetFile& file : files(view).value_or(std::vector<DatasetFile>{})) add(file);
+    const auto known = files(view);
+    if (!known)
+      throw Error(ErrorKind::io, record(view).string(), "is damaged; run the same command again");
+    for (const DatasetFile& file : *known) add(file);
   }
   for (const std::string& name : more) add(existing(path_, name));
   out.write("\n]\n");
@@ -245,44 +280,6 @@ void DatasetFolder::write_manifest(std::span<const std::string> more) const {
 void write_dataset_file(const fs::path& path, std::string_view bytes) {
   create_folder(path.parent_path());
   write_file(path, bytes);
-}
-
-std::string dataset_file_name(std::string_view pattern, std::string_view scene, std::uint32_t view,
-                              std::string_view name) {
-  const auto refuse = [whole = pattern](const std::string& reason) {
-    throw Error(ErrorKind::usage, "", "the file name pattern " + printable(whole) + " " + reason);
-  };
-  std::string result;
-  bool is_unique = false;
-  while (!pattern.empty()) {
-    const std::size_t open = pattern.find('{');
-    result += pattern.substr(0, open);
-    if (open == pattern.npos) break;
-    const std::size_t end = pattern.find('}', open);
-    if (end == pattern.npos) refuse("has an opening brace without a closing one");
-    const std::string_view field = pattern.substr(open + 1, end - open - 1);
-    pattern.remove_prefix(end + 1);
-    if (field == "scene") {
-      result += scene;
-    } else if (field == "name") {
-      result += name;
-      is_unique = true;
-    } else if (field == "view" || (field.size() == 8 && field.starts_with("view:0") &&
-                                   field[6] >= '1' && field[6] <= '9' && field[7] == 'd')) {
-      const std::size_t width = field.size() == 8 ? static_cast<std::size_t>(field[6] - '0') : 1;
-      const std::string number = std::to_string(view);
-      result.append(width > number.size() ? width - number.size() : 0, '0').append(number);
-      is_unique = true;
-    } else {
-      refuse("has an unknown field {" + printable(field) +
-             "}; the fields are {scene}, {view}, {view:06d} and {name}");
-    }
-  }
-  if (!is_unique) refuse("needs {view} or {name}");
-  const fs::path path(result);
-  if (path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end())
-    refuse("must not lead out of the data set's folder");
-  return result;
 }
 
 }  // namespace microtrace

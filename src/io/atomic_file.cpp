@@ -168,6 +168,28 @@ void AtomicFile::close() {
   if (closed != 0 && errno != EINTR) fail(errno, "free some space, or name another file");
 }
 
+void AtomicFile::sync() {
+  // Streams can't be synchronized (EINVAL, EROFS).
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS && errno != EINTR)
+    fail(errno, "free some space, or name another file");
+}
+
+bool AtomicFile::commit_new() {
+  close();
+  if (temporary_.empty()) return true;
+  if (::link(temporary_.c_str(), target_.c_str()) == 0) {
+    discard();
+    return true;
+  }
+  std::error_code error;
+  const bool exists = errno == EEXIST || fs::exists(target_, error);
+  if (exists)
+    discard();
+  else
+    commit();
+  return !exists;
+}
+
 void AtomicFile::commit() {
   close();
   if (temporary_.empty()) return;

@@ -24,8 +24,16 @@ class AtomicFile {
   /// Closes the file and hands all data to the system. Nothing may be written afterwards.
   void close();
 
+  /// Writes all data to the disk, so that a file that is committed afterwards is whole even after a
+  /// power failure.
+  void sync();
+
   /// Closes the file and renames it to the target.
   void commit();
+
+  /// Does the same unless the target exists. Returns false if it does. If several processes commit
+  /// the same new target, only one of them gets true, except on file systems without hard links.
+  [[nodiscard]] bool commit_new();
 
  private:
   void open_temporary();

@@ -159,7 +159,7 @@ class Dataset(ProgramTest):
 
     def test_verification(self):
         self.dataset("--views", "orbit:4", *SMALL)
-        self.assertIn("4 views, 4 files, all whole; 2 views rendered again: the same", self.verify("--redraw", "2"))
+        self.assertIn("4 views, 5 files, all whole; 2 views rendered again: the same", self.verify("--redraw", "2"))
         file = self.folder / "out/000002.png"
         content = file.read_bytes()
         file.write_bytes(content[:-1] + b"x")
@@ -167,6 +167,49 @@ class Dataset(ProgramTest):
         file.write_bytes(content)
         (self.folder / "out/records/000003.json").unlink()
         self.assertIn("lacks 1 of 4 views", self.verify(code=5))
+
+    def test_records_that_a_power_failure_left_empty_are_replaced(self):
+        self.dataset("--views", "orbit:3", *SMALL)
+        whole = self.contents()
+        for damage in (b"", bytes(200), b'{"view": 1, "fil'):
+            (self.folder / "out/records/000001.json").write_bytes(damage)
+            self.assertIn("lacks 1 of 3 views", self.verify(code=5))
+            self.dataset("--views", "orbit:3", *SMALL)
+            self.assertEqual(self.contents(), whole)
+
+    def test_verification_reads_the_common_files(self):
+        self.dataset("--views", "orbit:2", "--formats", "png,coco,bop", *SMALL)
+        for name in ("coco.json", "manifest.json", "bop/train/000000/scene_gt.json", "bop/models/models_info.json"):
+            file = self.folder / "out" / name
+            content = file.read_bytes()
+            file.unlink()
+            self.assertIn(f"{name}: is missing", self.verify(code=5))
+            if name != "manifest.json":
+                file.write_bytes(content + b" ")
+                self.assertIn(f"{name}: is missing or was changed", self.verify(code=5))
+            file.write_bytes(content)
+        self.verify()
+
+    def test_one_of_two_data_sets_gets_a_new_folder(self):
+        for _ in range(10):
+            processes = [subprocess.Popen([PROGRAM, "dataset", SCENE, "-o", self.folder / "new", "--views", "orbit:2",
+                                           *SMALL, "--seed", str(seed), "-q"], stderr=subprocess.DEVNULL)
+                         for seed in (1, 2)]
+            self.assertEqual(sorted(process.wait() for process in processes), [0, 2])
+            shutil.rmtree(self.folder / "new")
+
+    def test_names_that_are_not_utf_8_are_refused(self):
+        scene = self.folder / os.fsdecode(b"\xff.json")
+        shutil.copy(SCENE, scene)
+        self.assertIn("not UTF-8", self.dataset("--views", "orbit:2", *SMALL, scene=scene, code=2))
+
+    def test_names_of_other_files_are_refused(self):
+        for name in ("bop/train/000000/depth/{view:06d}", "./records/{view}", "annotations/{view}"):
+            self.assertIn("is for other files", self.dataset("--views", "orbit:2", *SMALL, "--name", name, code=2))
+
+    def test_generated_views_count_toward_the_memory_limit(self):
+        self.assertIn("the views of the data set",
+                      self.dataset("--views", "random:1000000", "--memory-limit", "100M", code=6))
 
     def test_verification_notices_another_scene(self):
         shutil.copy(SCENE, self.folder / "scene.json")

@@ -1,5 +1,6 @@
 #include "cli/dataset/dataset.hpp"
 
+#include "base/printable.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/pictures/render_picture.hpp"
@@ -22,11 +23,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws Error (usage) if two views would have files with the same name.
+/// Throws Error (usage) if two views would have files with the same name, or a view those of other
+/// files of the data set.
 void check_names(const Arguments& arguments, const std::vector<DatasetView>& views) {
   std::set<std::string> names;
   for (std::uint32_t i = 0; i < views.size(); ++i) {
     const std::string name = stem_of(arguments, views[i], i);
+    const fs::path path = fs::path(name).lexically_normal();
+    for (const char* folder : {"records", "annotations", "bop"}) {
+      if (*path.begin() == folder && path.has_parent_path())
+        refuse_usage("--name: the folder " + std::string(folder) +
+                     " is for other files of the data set; name another one");
+    }
     if (!names.insert(name).second) {
       refuse_usage("--name: views share the file name " + name +
                    "; add {view:06d} or give the views different names");
@@ -50,8 +58,8 @@ DatasetIdentity identity_of(const Arguments& arguments, const std::vector<Datase
 void report(const Arguments& arguments, std::size_t rendered, std::size_t kept,
             std::uint32_t missing, double seconds) {
   if (arguments.quiet || arguments.progress == Progress::json) return;
-  std::fprintf(stderr, "%s: rendered %zu views in %.1f s", arguments.output.c_str(), rendered,
-               seconds);
+  std::fprintf(stderr, "%s: rendered %zu views in %.1f s",
+               printable(arguments.output.string()).c_str(), rendered, seconds);
   if (kept > 0) std::fprintf(stderr, ", kept %zu", kept);
   if (missing > 0) std::fprintf(stderr, "; %u views of other shards are not rendered yet", missing);
   std::fprintf(stderr, "\n");

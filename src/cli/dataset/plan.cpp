@@ -16,6 +16,15 @@ auto scene_key(const DatasetView& view) {
                   view.environment_intensity);
 }
 
+/// Throws Error (limit) if so many views exceed the memory limit.
+void check_memory(const Arguments& arguments, std::uint64_t views) {
+  constexpr std::uint64_t kNameSize = 128;  // approximate size of a view's name in tables
+  MemoryBudget budget(arguments.memory_limit.value_or(default_memory_limit()));
+  MemoryAccount memory(&budget);
+  const MemoryScope scope(memory);
+  take_memory(views * (sizeof(DatasetView) + kNameSize), "the views of the data set");
+}
+
 /// The views of --views without --frames.
 std::vector<DatasetView> listed_views(const Arguments& arguments) {
   const std::string& text = arguments.dataset.views;
@@ -41,6 +50,7 @@ std::vector<DatasetView> listed_views(const Arguments& arguments) {
         std::to_string(kMaxViews));
   }
   const auto count = static_cast<std::uint32_t>(numbers[0]);
+  check_memory(arguments, count);
   std::vector<DatasetView> views;
   if (kind == "orbit") views = orbit_views(count, numbers.size() == 2 ? numbers[1] : 25);
   if (kind == "hemisphere") views = hemisphere_views(count);
@@ -57,6 +67,7 @@ std::vector<DatasetView> views_of(const Arguments& arguments) {
   if (!arguments.frames) return listed;
   if (std::uint64_t{listed.size()} * arguments.frames->count() > kMaxViews)
     refuse_usage("--frames: more than " + std::to_string(kMaxViews) + " views in all");
+  check_memory(arguments, std::uint64_t{listed.size()} * arguments.frames->count());
   std::vector<DatasetView> views;
   for (std::uint32_t i = 0; i < arguments.frames->count(); ++i) {
     for (DatasetView view : listed) {

@@ -1,3 +1,4 @@
+#include "base/printable.hpp"
 #include "cli/dataset/dataset.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/dataset/view_renderer.hpp"
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <set>
+#include <string>
 #include <system_error>
 
 namespace microtrace::cli {
@@ -39,6 +42,24 @@ class TemporaryFolder {
 
 [[noreturn]] void fail(const DatasetFolder& folder, const std::string& file, const char* reason) {
   throw Error(ErrorKind::io, (folder.path() / file).string(), reason);
+}
+
+/// Checks the files that belong to the whole data set: those that the manifest lists, but no
+/// record. Returns their number.
+std::size_t check_common_files(const DatasetFolder& folder) {
+  std::set<std::string> of_views;
+  for (std::uint32_t view = 0; view < folder.identity().views; ++view) {
+    for (const DatasetFile& file : folder.files(view).value_or(std::vector<DatasetFile>{}))
+      of_views.insert(file.name);
+  }
+  std::error_code error;
+  if (!fs::exists(folder.path() / "manifest.json", error))
+    fail(folder, "manifest.json", "is missing; continue with microtrace dataset");
+  std::vector<DatasetFile> common = folder.manifest();
+  std::erase_if(common, [&](const DatasetFile& file) { return of_views.contains(file.name); });
+  if (const auto name = first_damaged(folder.path(), common))
+    fail(folder, *name, "is missing or was changed; continue with microtrace dataset");
+  return common.size() + 1;
 }
 
 /// The arguments with which the data set was started.
@@ -100,9 +121,10 @@ void verify_dataset(const Arguments& arguments) {
                 "lacks " + std::to_string(count - finished.size()) + " of " +
                     std::to_string(count) + " views; continue with microtrace dataset");
   }
+  files += check_common_files(folder);
   if (arguments.quiet) return;
   std::fprintf(stderr, "%s: %u views, %zu files, all whole; %zu views rendered again: the same\n",
-               arguments.output.c_str(), count, files, sample.size());
+               printable(arguments.output.string()).c_str(), count, files, sample.size());
 }
 
 }  // namespace microtrace::cli

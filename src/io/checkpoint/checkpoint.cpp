@@ -153,6 +153,7 @@ class CheckpointWriter {
     std::string end;
     io::append(end, digest_.value());
     file_.write(end);
+    file_.sync();
     file_.commit();
   }
 
