@@ -115,7 +115,7 @@ class MICROTRACE_EXPORT SceneFile {
   [[nodiscard]] SceneChoices choices() const;
 
   /// Returns the scene at an animation time, equal to the result of load_scene() with this
-  /// options.time. Throws Error as load_scene() does.
+  /// options.time. Throws Error as load_scene() does, and Error (usage) for NaN.
   [[nodiscard]] LoadedScene at(std::optional<double> time);
 
   /// Does the same, and releases the memory that only further scenes would need. No other function

@@ -8,9 +8,21 @@ nb::object member(const char* module, const char* name) {
   return nb::module_::import_((std::string("microtrace.") + module).c_str()).attr(name);
 }
 
+namespace {
+
+/// Converts text that may contain bytes that are not UTF-8, such as parts of file names. Python
+/// represents these bytes by surrogates, as in paths.
+nb::object text_of(const std::string& text) {
+  return nb::steal(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
+}
+
+}  // namespace
+
 nb::object to_python(const Diagnostic& diagnostic) {
-  return member("errors", "Diagnostic")(diagnostic.file, diagnostic.line, diagnostic.column,
-                                        diagnostic.pointer, diagnostic.message, diagnostic.text());
+  return member("errors", "Diagnostic")(text_of(diagnostic.file), diagnostic.line,
+                                        diagnostic.column, text_of(diagnostic.pointer),
+                                        text_of(diagnostic.message), text_of(diagnostic.text()));
 }
 
 void bind_errors(nb::module_& /*module*/) {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import gc
+import os
 import pickle
 import re
 import tracemalloc
@@ -16,6 +17,30 @@ from microtrace import materials
 
 KNOT = SCENES / "gltf" / "knot.glb"
 MATERIALS = SCENES / "gltf" / "materials.glb"
+
+
+def test_files_are_not_pickled():
+    for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+        with pytest.raises(TypeError, match="cannot pickle"):
+            pickle.dumps(mt.SceneFile(KNOT), protocol)
+
+
+def test_errors_name_paths_that_are_not_utf_8(tmp_path):
+    folder = os.fsencode(tmp_path) + b"/\xff"
+    os.mkdir(folder)
+    path = folder + b"/a.json"
+    with pytest.raises(FileNotFoundError) as missing:
+        mt.load(os.fsdecode(path))
+    assert os.fsencode(missing.value.diagnostic.file) == path
+    with open(path, "w") as file:
+        file.write("{")
+    with pytest.raises(mt.SceneError):
+        mt.load(os.fsdecode(path))
+
+
+def test_times_must_be_numbers():
+    with pytest.raises(mt.UsageError, match="time"):
+        mt.load(SCENES / "gltf" / "moving.glb", time=float("nan"))
 
 
 def test_defaults_are_those_of_the_library():

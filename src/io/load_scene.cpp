@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <unistd.h>
 #include <utility>
@@ -162,6 +163,7 @@ SceneChoices SceneFile::choices() const {
 
 LoadedScene SceneFile::at(std::optional<double> time) {
   const FloatEnvironment environment;
+  if (time && std::isnan(*time)) throw Error(ErrorKind::usage, "time", "must be a number");
   LoadOptions options = content_->options;
   options.time = time;
   content_->memory_of_scene.clear();
