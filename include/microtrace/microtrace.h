@@ -36,6 +36,9 @@ typedef enum mt_status {
   MT_CANCELED = 7       /* the progress callback requested to stop */
 } mt_status;
 
+/* Functions that return a status return MT_USAGE if a handle or a required pointer is NULL. The
+ * other functions then do nothing and return 0 or NULL. */
+
 /* Returns the library's version as "MAJOR.MINOR.PATCH". */
 MT_API const char* mt_version(void);
 

@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <new>
+#include <stdexcept>
 
 namespace microtrace::capi {
 namespace {
@@ -29,6 +30,9 @@ mt_status failed() noexcept {
     return static_cast<mt_status>(error.kind());
   } catch (const std::bad_alloc&) {
     keep("out of memory");
+    return MT_LIMIT;
+  } catch (const std::length_error&) {
+    keep("a count exceeds the memory");
     return MT_LIMIT;
   } catch (const std::exception& error) {
     keep(error.what());

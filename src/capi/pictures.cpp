@@ -97,6 +97,7 @@ using namespace microtrace;
 using namespace microtrace::capi;
 
 void mt_render_options_init(mt_render_options* options) {
+  if (options == nullptr) return;
   *options = {};
   options->size = sizeof *options;
 }
@@ -137,11 +138,11 @@ void mt_film_release(mt_film* film) {
 }
 
 uint32_t mt_film_width(const mt_film* film) {
-  return film->film.size().width;
+  return film != nullptr ? film->film.size().width : 0;
 }
 
 uint32_t mt_film_height(const mt_film* film) {
-  return film->film.size().height;
+  return film != nullptr ? film->film.size().height : 0;
 }
 
 mt_status mt_film_rgba(const mt_film* film, float* rgba) {
@@ -160,6 +161,7 @@ mt_status mt_film_rgba(const mt_film* film, float* rgba) {
 }
 
 const char* mt_film_channel_name(const mt_film* film, size_t channel) {
+  if (film == nullptr) return nullptr;
   const auto& channels = film->film.channels;
   return channel < channels.size() ? channels[channel].name.c_str() : nullptr;
 }

@@ -132,6 +132,7 @@ using namespace microtrace;
 using capi::guarded, capi::require, capi::complete;
 
 void mt_load_options_init(mt_load_options* options) {
+  if (options == nullptr) return;
   *options = {.size = sizeof *options,
               .time = std::numeric_limits<double>::quiet_NaN(),
               .animation = nullptr,
@@ -218,18 +219,19 @@ void mt_scene_release(mt_scene* scene) {
 }
 
 uint32_t mt_scene_primitive_count(const mt_scene* scene) {
-  return scene->prepared.bvh().primitives().count();
+  return scene != nullptr ? scene->prepared.bvh().primitives().count() : 0;
 }
 
 size_t mt_scene_object_count(const mt_scene* scene) {
-  return scene->prepared.scene().objects.size();
+  return scene != nullptr ? scene->prepared.scene().objects.size() : 0;
 }
 
 const char* mt_scene_object_name(const mt_scene* scene, size_t object) {
+  if (scene == nullptr) return nullptr;
   const auto& objects = scene->prepared.scene().objects;
   return object < objects.size() ? objects[object].name.c_str() : nullptr;
 }
 
 const char* mt_scene_warnings(const mt_scene* scene) {
-  return scene->warnings.c_str();
+  return scene != nullptr ? scene->warnings.c_str() : nullptr;
 }

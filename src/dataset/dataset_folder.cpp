@@ -101,7 +101,8 @@ std::optional<std::string> difference(const DatasetIdentity& a, const DatasetIde
   if (a.program != b.program) return "another version, " + a.program + " instead of " + b.program;
   if (a.scene != b.scene) return "another scene, " + a.scene + " instead of " + b.scene;
   if (a.options != b.options) return "other options";
-  if (a.digest != b.digest) return "another content of the scene's or the views' files";
+  if (a.digest != b.digest)
+    return "another content of the scene's or the views' files, or other decoders";
   if (a.views != b.views)
     return "another number of views, " + std::to_string(a.views) + " instead of " +
            std::to_string(b.views);

@@ -134,6 +134,10 @@ std::optional<struct stat> status_of_target(const std::filesystem::path& path) {
   return is_there ? std::optional(status) : std::nullopt;
 }
 
+void add_to_read_digest(std::string_view what) {
+  if (digest_of_reads != nullptr) digest_of_reads->add(what);
+}
+
 }  // namespace microtrace::io
 
 namespace microtrace {

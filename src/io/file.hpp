@@ -35,6 +35,10 @@ inline constexpr std::size_t kMaxFileSize = std::size_t{1} << 30;
 /// Records in ReadFiles a file that a scene names but that is not read.
 void note_unread_file(const std::filesystem::path& path);
 
+/// Adds to the innermost ReadDigest of this thread something that affects the result as a file
+/// does.
+void add_to_read_digest(std::string_view what);
+
 /// Returns the status of the file to which the path leads; "-" means standard output. Returns
 /// nothing if there is no file.
 [[nodiscard]] std::optional<struct stat> status_of_target(const std::filesystem::path& path);

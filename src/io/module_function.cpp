@@ -4,6 +4,8 @@
 #include "io/elf_file.hpp"
 #include "io/module_folders.hpp"
 
+#include <microtrace/error.hpp>
+
 #include <dlfcn.h>
 #include <system_error>
 
@@ -13,6 +15,12 @@ namespace {
 std::string last_complaint(const std::string& otherwise) {
   const char* reason = ::dlerror();
   return reason != nullptr ? reason : otherwise;
+}
+
+/// True if this complaint of the dynamic linker of glibc is about memory.
+bool lacks_memory(const std::string& complaint) {
+  return complaint.find("failed to map segment") != complaint.npos ||
+         complaint.find("annot allocate memory") != complaint.npos;
 }
 
 }  // namespace
@@ -30,6 +38,11 @@ Module open_module(const char* file) {
     if (!result.complaint.empty()) break;
     result.handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (result.handle == nullptr) result.complaint = last_complaint(path.string());
+    if (lacks_memory(result.complaint)) {
+      throw Error(
+          ErrorKind::limit, path.string(),
+          "can't be loaded: " + result.complaint + "; raise the limit of memory (ulimit -v)");
+    }
     break;
   }
   return result;

@@ -140,6 +140,8 @@ static void wrong_instances(const mt_mesh* mesh, const mt_instance* instances) {
   CHECK(mt_scene_from_instances(mesh, 1, wrong, 2, 1, &scene) == MT_INVALID_SCENE && scene == NULL);
   CHECK(strstr(mt_last_error(), "finite") != NULL);
   CHECK(mt_scene_from_instances(mesh, 1, NULL, 2, 1, &scene) == MT_USAGE && scene == NULL);
+  CHECK(mt_scene_from_instances(mesh, 1, wrong, (size_t)-1 / 512, 1, &scene) == MT_LIMIT &&
+        scene == NULL);
   CHECK(mt_scene_from_instances(NULL, 1, wrong, 2, 1, &scene) == MT_USAGE && scene == NULL);
   CHECK(mt_scene_from_instances(NULL, 0, NULL, 0, 1, &scene) == MT_OK);
   CHECK(mt_scene_primitive_count(scene) == 0);

@@ -211,6 +211,15 @@ class Dataset(ProgramTest):
         self.assertIn("the views of the data set",
                       self.dataset("--views", "random:1000000", "--memory-limit", "100M", code=6))
 
+    def test_pictures_without_a_decoder_are_another_data_set(self):
+        (self.folder / "bare").mkdir()
+        bare = shutil.copy(PROGRAM, self.folder / "bare/microtrace")
+        scene = SOURCE / "scenes/gltf/textured.glb"
+        options = ["--views", "orbit:2", *SMALL, "--spp", "1", "--formats", "npz"]
+        subprocess.run([bare, "dataset", scene, "-o", "out", *options, "--shard", "1/2", "-q"], cwd=self.folder, check=True,
+                       stderr=subprocess.DEVNULL)
+        self.assertIn("other decoders", self.dataset(*options, scene=scene, code=2))
+
     def test_verification_notices_another_scene(self):
         shutil.copy(SCENE, self.folder / "scene.json")
         self.dataset("--views", "orbit:2", *SMALL, scene="scene.json")

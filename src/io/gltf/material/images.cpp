@@ -2,6 +2,7 @@
 
 #include "base/memory_account.hpp"
 #include "base/printable.hpp"
+#include "io/file.hpp"
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/extensions/extensions.hpp"
@@ -161,6 +162,7 @@ class ImageLoader {
     }
     DecodedImage decoded = decode_image(bytes);
     if (decoded.no_module) {
+      add_to_read_digest("without decoder");  // the picture is another one
       asset_.warn(at, "can't be decoded, so its textures are white: " + decoded.complaint);
       return nullptr;
     }
