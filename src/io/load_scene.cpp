@@ -106,8 +106,17 @@ LoadedScene read(Reader& reader, const std::filesystem::path& folder, LoadOption
     return result;
   }
   io::LoadClock clock(options.times);
+  const io::JsonDocument& document = std::get<io::JsonDocument>(reader);
+  if (!options.variant.empty())
+    throw Error(ErrorKind::usage, document.file(), "has no variants; leave out --variant");
   if (options.detail == SurfaceDetail::usual) options.detail = SurfaceDetail::color;
-  LoadedScene result = io::read_json_scene(std::get<io::JsonDocument>(reader), folder, options);
+  LoadedScene result = io::read_json_scene(document, folder, options);
+  if (options.time) {
+    result.warnings.push_back({.file = document.file(),
+                               .pointer = {},
+                               .message = "has no animation; the time has no effect",
+                               .excerpt = {}});
+  }
   clock.lap(&LoadTimes::bake);
   return result;
 }

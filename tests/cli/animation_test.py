@@ -102,7 +102,7 @@ class Animation(ProgramTest):
             (["--time", "soon"], "--time"), (["--time", "nan"], "--time"), (["--time", "inf"], "--time"),
             (["--time", ""], "--time"), (["--time", "1s"], "--time"),
             (["--animation", "up"], "--time"),
-            (["--time", "1", "--animation", "down"], "0, 1 (up)"),
+            (["--time", "1", "--animation", "down"], "0 (unnamed), 1 (up)"),
         ):
             result = self.run_program("move.gltf", "-o", "out.ppm", *arguments)
             self.assertEqual(result.returncode, 2, (arguments, result.stderr))

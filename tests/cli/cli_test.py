@@ -69,6 +69,13 @@ class CommandLine(ProgramTest):
 
     # Rendering
 
+    def test_json_scenes_have_neither_variants_nor_animations(self):
+        scene = SOURCE / "scenes/perspective1.json"
+        result = self.run_program(scene, "--variant", "0", "-o", "a.ppm")
+        self.assertEqual((result.returncode, b"has no variants" in result.stderr), (2, True))
+        result = self.run_program(scene, "--time", "1", "--size", "8x8", "-o", "a.ppm")
+        self.assertEqual((result.returncode, b"has no animation" in result.stderr), (0, True))
+
     def test_renders_to_the_named_file(self):
         result = self.run_program(SCENE, "-o", "a.ppm")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -262,6 +269,10 @@ class CommandLine(ProgramTest):
         self.assertEqual(wrong.returncode, 2)
         self.assertIn(b"0 (leaf), 1 (sea)", wrong.stderr)
         self.assertEqual(os.listdir(self.folder), ["a.gltf"])
+        samples = ["a.gltf", "--size", "3x3", "--spp", "2", "-o", "a.ppm", "--checkpoint", "c", "--variant"]
+        self.assertEqual(self.run_program(*samples, "leaf").returncode, 0)
+        other = self.run_program(*samples, "sea")
+        self.assertEqual((other.returncode, b"c: holds samples of another picture: " in other.stderr), (2, True))
 
     def test_gltf_is_path_traced_and_json_is_flat(self):
         cube = SOURCE / "scenes/gltf/cube.glb"

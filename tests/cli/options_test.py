@@ -23,7 +23,7 @@ CONTEXT = {"--fov": ["--view", "front"], "--up": ["--eye", "0,0,30"], "--apertur
 SAMPLES_DEPEND = {
     "--size": "12x16", "--crop": "0,0,8,8", "--background": "transparent", "--camera": "0", "--view": "top", "--eye": "0,0,30",
     "--filter": "blackman-harris", "--seed": "1", "--max-depth": "1", "--backfaces": "occlude", "--bsdf": "spec", "--guiding": None,
-    "--env": "#ff8000", "--env-rotation": "90", "--env-intensity": "0.5", "--ground": None, "--target-error": "0.5", "--quality": "draft", "--time": "1", "--shutter": "0:0.1", "--variant": "0"}
+    "--env": "#ff8000", "--env-rotation": "90", "--env-intensity": "0.5", "--ground": None, "--target-error": "0.5", "--quality": "draft", "--time": "1", "--shutter": "0:0.1"}
 SAMPLES_STAY = {
     "--threads": "3", "--stats": None, "--progress": "none", "--exposure": "2", "--tonemap": "aces", "--memory-limit": "1G",
     "--max-time": "600", "--verbose": None, "--strict": None, "--time-limit": "500", "--save-every": "1", "--ppm": "ascii",

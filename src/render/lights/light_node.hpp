@@ -179,6 +179,8 @@ struct LightChoice {
   Float<N> probability{};  ///< selection probability at each point; 0 if no light reaches the point
 };
 
+inline namespace MICROTRACE_KERNELS {
+
 /// The state of a selection: the random numbers that are left, and the current children.
 template <int N>
 struct LightDescent {
@@ -250,6 +252,8 @@ void descend(const LightNode* nodes, LightDescent<N>& state, Lanes inner) {
     inner = lit & true_lanes<N>(next != 0);
   }
 }
+
+}  // namespace MICROTRACE_KERNELS
 
 /// Selects a light for each of the `wanted` lanes. p is in the units of the tree. u is in [0, 1).
 template <int N>
