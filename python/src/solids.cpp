@@ -90,7 +90,9 @@ void bind_solids(nb::module_& module) {
   nb::class_<SolidOf>(module, "Solid")
       .def(
           "__init__",
-          [](SolidOf* self, const Prepared& prepared, std::optional<std::size_t> object) {
+          [](SolidOf* self, const Prepared& prepared, std::optional<std::int64_t> object) {
+            if (object && *object < 0)
+              throw Error(ErrorKind::usage, "object", "must not be negative");
             new (self) SolidOf{Solid(prepared.scene, object), prepared.scene};
           },
           nb::arg("scene"), nb::arg("object").none())

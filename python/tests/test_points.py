@@ -15,6 +15,14 @@ def ball() -> mt.PreparedScene:
     return scene.prepare()
 
 
+def test_objects_are_counted_from_0():
+    scene = mt.Scene()
+    scene.add_mesh(*icosphere(1))
+    for object in (-1, 1):
+        with pytest.raises(mt.UsageError):
+            scene.prepare().closest_point([[0, 0, 0]], object=object)
+
+
 def test_locate(ball, rng):
     vertices = np.asarray(ball.scene.objects[0].shape.vertices)
     assert (ball.locate(vertices) == 0).all()

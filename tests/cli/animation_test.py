@@ -143,6 +143,12 @@ class Animation(ProgramTest):
         self.frames("--time", "1", "-o", "single.png")
         self.assertEqual((self.folder / "move_0024.png").read_bytes(), (self.folder / "single.png").read_bytes())
 
+    def test_frames_of_a_scene_with_a_percent_sign_have_its_name(self):
+        (self.folder / "move.gltf").rename(self.folder / "100%.gltf")
+        result = self.run_program("100%.gltf", "--frames", "3:3", "--size", "8x8", "--spp", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue((self.folder / "100%_0003.png").exists())
+
     def test_frames_to_standard_output_follow_each_other(self):
         result = self.frames("--frames", "0:2", "--fps", "1", "--animation", "up", "-o", "-")
         singles = [self.frames("--time", k, "--animation", "up", "-o", "-").stdout for k in range(3)]

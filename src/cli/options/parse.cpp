@@ -155,7 +155,11 @@ std::vector<std::string> picture_words(const std::vector<Given>& given) {
 
 std::filesystem::path default_output(const std::string& scene, bool has_frames) {
   if (scene == "-") refuse_usage("--output is required if the scene is standard input");
-  return std::filesystem::path(scene).stem() += has_frames ? "_%04d.png" : ".png";
+  std::string stem = std::filesystem::path(scene).stem().string();
+  if (!has_frames) return stem + ".png";
+  for (std::size_t at = stem.find('%'); at != stem.npos; at = stem.find('%', at + 2))
+    stem.insert(at, 1, '%');
+  return stem + "_%04d.png";
 }
 
 /// Checks that names of files contain the frame number if frames are rendered or merged.

@@ -106,9 +106,8 @@ class InfluenceCheck {
       unequal += std::abs(sum - 1) <= kTolerance * terms ? 0 : 1;
     }
     if (unequal != 0) {
-      asset_.tolerate(at,
-                      "has " + std::to_string(unequal) +
-                          " vertices whose weights do not add up to 1; the weights are normalized");
+      asset_.tolerate(at, "has vertices whose weights do not add up to 1, " +
+                              std::to_string(unequal) + " in all; the weights are normalized");
     }
     if (negative) asset_.tolerate(at, "has negative weights");
     if (twice) asset_.tolerate(at, "has vertices with the same joint twice");
