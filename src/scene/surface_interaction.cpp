@@ -99,18 +99,10 @@ class Interaction {
       : primitives_(primitives), ray_(ray), hit_(hit), o_(ray.o), d_(ray.d) {}
 
   SurfaceInteraction operator()(const Sphere& s) const {
-    const DVec3 center(s.center), from_center = o_ - center, size = glm::abs(from_center);
-    const double r = s.radius, square = glm::dot(d_, d_);
-    const Polynomial f{.a = square,
-                       .b = glm::dot(from_center, d_),
-                       .c = glm::dot(from_center, from_center) - r * r};
-    const Polynomial sizes{.a = square,
-                           .b = glm::dot(size, glm::abs(d_)),
-                           .c = glm::dot(from_center, from_center) + r * r};
-    const std::optional<double> t = f.root_near(hit_.t, sizes);
+    const std::optional<double> t = hit_of(s);
     if (!t) return exactly(s);
-    const DVec3 n = direction_or(from_center + *t * d_, facing());
-    return at(center + r * n, n);
+    const DVec3 center(s.center), n = direction_or(o_ - center + *t * d_, facing());
+    return at(center + double{s.radius} * n, n);
   }
 
   SurfaceInteraction operator()(const Plane& s) const { return planar(s, s.point); }
@@ -127,9 +119,9 @@ class Interaction {
   SurfaceInteraction operator()(const Triangle& s) const {
     const TriangleCorners<1> t = corners_of(s);
     const auto inside = barycentrics_of<1>(t, o_, d_);
-    const DVec3 w = inside.exists ? inside.v : barycentrics_at(t, exact_point(s));
-    SurfaceInteraction result =
-        at(weighted(w, t.a, t.b, t.c), direction_or(area_vector<1>(t), facing()));
+    const DVec3 p = inside.exists ? weighted(inside.v, t.a, t.b, t.c) : exact_point(s);
+    const DVec3 w = inside.exists ? inside.v : barycentrics_at(t, p);
+    SurfaceInteraction result = at(p, direction_or(area_vector<1>(t), facing()));
     result.front = shows_front(s, ray_.d);
     result.triangle = TrianglePoint{.barycentrics = w, .mesh = nullptr, .corners = {}};
     const auto* mesh = std::get_if<Mesh>(&primitives_.scene().objects[result.object].shape);
@@ -147,6 +139,21 @@ class Interaction {
   SurfaceInteraction operator()(const Mesh&) const { return {}; }  // never called
 
  private:
+  /// The parameter of the hit with a sphere; nothing if the ray nearly touches it.
+  [[nodiscard]] std::optional<double> hit_of(const Sphere& s) const {
+    const DVec3 from_center = o_ - DVec3(s.center), across = glm::cross(from_center, d_);
+    const double a = glm::dot(d_, d_), b = glm::dot(from_center, d_), r = s.radius;
+    // By Lagrange's identity. The difference b^2 - a c would cancel for distant spheres.
+    const double offset = glm::dot(across, across), discriminant = r * r * a - offset;
+    const double square = glm::dot(from_center, from_center);
+    if (!(discriminant > 0 && discriminant * discriminant > 0x1p-60 * square * offset * a))
+      return std::nullopt;
+    const double root = std::sqrt(discriminant), lo = (-b - root) / a, hi = (-b + root) / a;
+    const double t = std::abs(lo - hit_.t) <= std::abs(hi - hit_.t) ? lo : hi;
+    const double tolerance = 0x1p-22 * hit_.t + 0x1p-44 * std::sqrt(square / a);
+    return std::abs(t - hit_.t) <= tolerance ? std::optional(t) : std::nullopt;
+  }
+
   [[nodiscard]] DVec3 facing() const { return direction_or(-d_, DVec3(0, 0, 1)); }
 
   [[nodiscard]] SurfaceInteraction at(const DVec3& p, const DVec3& n) const {

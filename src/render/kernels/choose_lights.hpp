@@ -23,6 +23,9 @@ KindProbabilities<N> kind_probabilities(const LightChoiceSetup& setup, const Flo
                                         const Floats3<N>& n, const Float<N>& share) {
   using F = Float<N>;
   constexpr float kLeast = 0.1F;
+  // The only kind has the probability 1, however small its estimate is.
+  if (!setup.has_far && !(setup.environment_light > 0))
+    return {F{}, F{}, setup.nodes != nullptr ? all<N>(1) : F{}};
   F near{};
   if (setup.nodes != nullptr) near = LightNodes<N>(*setup.nodes).importance(p, n);
   const F sky = setup.environment_light * share;

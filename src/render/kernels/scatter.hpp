@@ -99,7 +99,7 @@ class Vertices {
     if (setup.most_survival < 1) {
       const F survival = smaller_of(greatest_component(next), all<N>(setup.most_survival));
       survives = survives & (chances.y < survival);
-      next = next * F(1 / survival);
+      next = next / survival;  // not by its reciprocal, which may overflow
     }
     store3<N>(lanes_.wi, i_, wi);
     store3<N>(lanes_.next_throughput, i_, next);

@@ -45,6 +45,8 @@ struct LightTreeSpace {
   }
 };
 
+inline namespace MICROTRACE_KERNELS {
+
 /// An angle in [0, pi]: the cosine and sine times a common factor.
 template <int N>
 struct LightAngle {
@@ -56,7 +58,7 @@ struct LightAngle {
   static LightAngle of(const F& cosine, const F& square) {
     return {cosine, square_root<N>(larger_of(F(square - cosine * cosine), F{}))};
   }
-  /// The difference of two angles, unless it is at most 0. Its factor is the product of both.
+  /// The difference of two angles, which may be negative. Its factor is the product of both.
   friend LightAngle operator-(const LightAngle& a, const LightAngle& b) {
     return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
   }
@@ -115,7 +117,9 @@ struct LightNodes {
     const LightAngle<N> box{square_root<N>(larger_of(F(square - radius_square), zero)), radius};
     const auto least_cosine = [&](const LightAngle<N>& angle) {
       const LightAngle<N> rest = angle - box;
-      return is_inside | (rest.sine <= 0) ? one : larger_of(F(rest.cosine * inverse), zero);
+      // `rest` is more than -pi / 2, so its cosine tells 0 from pi, whose sine is 0 too.
+      const auto is_within = (rest.sine <= 0) & (rest.cosine >= 0);
+      return is_inside | is_within ? one : larger_of(F(rest.cosine * inverse), zero);
     };
     F cosines = least_cosine(LightAngle<N>::of(magnitude(F(dot(to_light, n))), square));
     auto is_reached = cosines > 0;
@@ -123,7 +127,8 @@ struct LightNodes {
       const F along = dot(axis, to_light);
       const auto to_point = LightAngle<N>::of(is_two_sided != 0 ? magnitude(along) : along, square);
       const LightAngle<N> beyond = to_point - LightAngle<N>{cos_o, sin_o};
-      const F emitted = beyond.sine <= 0 ? one : least_cosine(beyond);
+      const auto is_within = (beyond.sine <= 0) & ((beyond.cosine >= 0) | (cos_o < 0));
+      const F emitted = is_within ? one : least_cosine(beyond);
       cosines = cosines * emitted;
       is_reached = (cosines > 0) & (emitted >= cos_e);
     }
@@ -178,8 +183,6 @@ struct LightChoice {
   std::uint32_t light[N] = {};
   Float<N> probability{};  ///< selection probability at each point; 0 if no light reaches the point
 };
-
-inline namespace MICROTRACE_KERNELS {
 
 /// The state of a selection: the random numbers that are left, and the current children.
 template <int N>
@@ -253,8 +256,6 @@ void descend(const LightNode* nodes, LightDescent<N>& state, Lanes inner) {
   }
 }
 
-}  // namespace MICROTRACE_KERNELS
-
 /// Selects a light for each of the `wanted` lanes. p is in the units of the tree. u is in [0, 1).
 template <int N>
 LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const Floats3<N>& n,
@@ -267,4 +268,5 @@ LightChoice<N> choose_light(const LightNode* nodes, const Floats3<N>& p, const F
   return choice;
 }
 
+}  // namespace MICROTRACE_KERNELS
 }  // namespace microtrace

@@ -206,6 +206,7 @@ float LightTree::probability(std::size_t light, const Vec3& p, const Vec3& n) co
     for (int i = 0; i < count; ++i) {
       if (first[i] < 0) return 0;
       probability = child_probability<1>(probability, is_second[i] ? 1 - first[i] : first[i]);
+      if (probability == 0) return 0;
     }
   }
   return probability;
