@@ -40,8 +40,9 @@ struct CocoOptions {
 };
 
 /// Joins Annotations::coco, stored in the files parts[i], into one file. Numbers
-/// the annotations from 1 in the order of the parts. Keeps one part in memory at a time. The
-/// categories are those of `scene`. Throws Error (io).
+/// the annotations from 1 in the order of the parts. Keeps one part in memory at a time. The first
+/// categories are those of `scene`; those that other views add, by variants or animations, follow.
+/// Throws Error (io).
 MICROTRACE_EXPORT void join_coco(std::span<const std::filesystem::path> parts, const Scene& scene,
                                  CocoCategories categories, const std::filesystem::path& output);
 

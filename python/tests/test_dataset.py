@@ -6,9 +6,11 @@ import json
 import subprocess
 import sys
 
+import microtrace as mt
 import numpy as np
 import pytest
 from conftest import REPOSITORY, SCENES
+from microtrace import _core
 from PIL import Image
 from pycocotools import mask as coco_mask
 from pycocotools.coco import COCO
@@ -204,3 +206,23 @@ def test_categories(program, tmp_path):
                 assert name == item["name"]
             else:
                 assert name == described["materials"][item["material"] - 1]["name"]
+
+
+def test_a_view_that_fails_does_not_break_the_next_one(tmp_path):
+    """Workers of distributed data sets go on with the same object."""
+    views = tmp_path / "views.json"
+    missing = str(tmp_path / "missing.exr")
+    views.write_text(json.dumps({"views": [{}, {"environment": {"light": missing}}]}))
+    words = [
+        str(SCENES / "gltf" / "knot.glb"),
+        f"--views={views}",
+        "--spp=1",
+        "--size=8x6",
+        "--output=.",
+    ]
+    renderer = _core.Dataset(words, "", "")
+    renderer.create(str(tmp_path / "set"))
+    first = renderer.render(str(tmp_path / "set"), 0)
+    with pytest.raises(mt.FileError):
+        renderer.render(str(tmp_path / "set"), 1)
+    assert renderer.render(str(tmp_path / "set"), 0) == first

@@ -163,6 +163,7 @@ mt_status mt_scene_parse(const void* bytes, size_t byte_count, const char* folde
 }
 
 void mt_mesh_init(mt_mesh* mesh) {
+  if (mesh == nullptr) return;
   *mesh = {};
   mesh->size = sizeof *mesh;
   for (float& c : mesh->base_color) c = 1;

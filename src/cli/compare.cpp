@@ -73,6 +73,8 @@ int compare_files(const Arguments& arguments) {
   if (options.pictures.size() != 2) refuse_usage("compare needs two pictures");
   const ReadFiles inputs;
   MemoryBudget memory(arguments.memory_limit.value_or(default_memory_limit()));
+  if (arguments.output == "-")
+    refuse_usage("--output: standard output gets the comparison; name a file");
   if (!arguments.output.empty()) check_image_path(arguments.output);
   const StoredPicture a = load_picture(options.pictures[0], &memory);
   const StoredPicture b = load_picture(options.pictures[1], &memory);

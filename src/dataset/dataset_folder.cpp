@@ -18,8 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using io::JsonReader;
 
-constexpr std::size_t kMaxRecord = std::size_t{64} << 20U;    ///< bytes of a JSON file of ours
-constexpr std::size_t kMaxManifest = std::size_t{16} << 30U;  ///< bytes of manifest.json
+constexpr std::size_t kMaxRecord = std::size_t{64} << 20U;  ///< bytes of a JSON file of ours
 
 std::string hexadecimal(std::uint64_t number) {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -85,15 +84,11 @@ DatasetIdentity read_identity(const fs::path& path) {
   return identity;
 }
 
-std::vector<DatasetFile> read_files(const JsonReader& json) {
-  std::vector<DatasetFile> files;
-  for (const JsonReader& item : json.items()) {
-    item.require_object({"name", "size", "digest"});
-    files.push_back({.name = item.member("name").string(),
-                     .size = item.member("size").count(),
-                     .digest = read_hexadecimal(item.member("digest"))});
-  }
-  return files;
+DatasetFile read_file_entry(const JsonReader& json) {
+  json.require_object({"name", "size", "digest"});
+  return {.name = json.member("name").string(),
+          .size = json.member("size").count(),
+          .digest = read_hexadecimal(json.member("digest"))};
 }
 
 /// Returns the first difference between two data sets.
@@ -214,7 +209,10 @@ std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view)
     const io::JsonDocument document(text, path.string());
     const JsonReader root(document);
     root.require_object({"view", "files"});
-    return read_files(root.member("files"));
+    std::vector<DatasetFile> files;
+    for (const JsonReader& item : root.member("files").items())
+      files.push_back(read_file_entry(item));
+    return files;
   } catch (const Error& failure) {
     if (failure.kind() != ErrorKind::invalid_scene) throw;
     return std::nullopt;
@@ -223,9 +221,17 @@ std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view)
 
 std::vector<DatasetFile> DatasetFolder::manifest() const {
   const fs::path path = path_ / "manifest.json";
-  const std::string text = io::read_file(path, kMaxManifest);
-  const io::JsonDocument document(text, path.string());
-  return read_files(JsonReader(document));
+  // One line for each file, because a JSON document may have only 2^24 values.
+  std::ifstream lines(path, std::ios::binary);
+  std::vector<DatasetFile> files;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "[" || line == "]" || line.empty()) continue;
+    if (line.back() == ',') line.pop_back();
+    const io::JsonDocument document(line, path.string());
+    files.push_back(read_file_entry(JsonReader(document)));
+  }
+  if (!lines.eof()) throw Error(ErrorKind::io, path.string(), "can't be read");
+  return files;
 }
 
 std::optional<std::string> first_damaged(const fs::path& folder,

@@ -7,6 +7,7 @@
 #include <microtrace/error.hpp>
 
 #include <dlfcn.h>
+#include <sys/resource.h>
 #include <system_error>
 
 namespace microtrace::io {
@@ -17,9 +18,12 @@ std::string last_complaint(const std::string& otherwise) {
   return reason != nullptr ? reason : otherwise;
 }
 
-/// True if this complaint of the dynamic linker of glibc is about memory.
+/// True if this complaint of the dynamic linker of glibc is about memory. A segment can't be mapped
+/// for other reasons too, such as a file system without permission to execute.
 bool lacks_memory(const std::string& complaint) {
-  return complaint.find("failed to map segment") != complaint.npos ||
+  rlimit limit{};
+  const bool is_limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return (is_limited && complaint.find("failed to map segment") != complaint.npos) ||
          complaint.find("annot allocate memory") != complaint.npos;
 }
 

@@ -91,6 +91,7 @@ static void rays(const mt_scene* scene) {
   CHECK(mt_intersect(scene, NULL, 0, 0, NULL) == MT_OK);
   CHECK(mt_intersect(scene, NULL, 1, 0, hits) == MT_USAGE);
   CHECK(mt_intersect(NULL, all, 1, 0, hits) == MT_USAGE);
+  mt_mesh_init(NULL), mt_load_options_init(NULL), mt_render_options_init(NULL);
   CHECK(mt_scene_primitive_count(NULL) == 0 && mt_scene_object_count(NULL) == 0);
   CHECK(mt_scene_object_name(NULL, 0) == NULL && mt_scene_warnings(NULL) == NULL);
   CHECK(mt_film_width(NULL) == 0 && mt_film_height(NULL) == 0 &&

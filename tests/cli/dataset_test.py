@@ -188,6 +188,12 @@ class Dataset(ProgramTest):
                 file.write_bytes(content + b" ")
                 self.assertIn(f"{name}: is missing or was changed", self.verify(code=5))
             file.write_bytes(content)
+        manifest = self.folder / "out/manifest.json"
+        content = manifest.read_bytes()
+        for damage in (b"[\n]\n", content.replace(b'"size": ', b'"size": 1', 1)):
+            manifest.write_bytes(damage)
+            self.assertIn("differs from the records", self.verify(code=5))
+        manifest.write_bytes(content)
         self.verify()
 
     def test_one_of_two_data_sets_gets_a_new_folder(self):

@@ -143,11 +143,30 @@ TEST(Coco, CategoriesByMaterial) {
   categories.add(scene);
   categories.add(scene);
   EXPECT_THAT(categories.names(), ElementsAre("steel", "unnamed"));
-  EXPECT_EQ(categories.of(scene, scene.objects[0]), 1U);
-  EXPECT_EQ(categories.of(scene, scene.objects[1]), 2U);
-  EXPECT_EQ(categories.of(scene, scene.objects[2]), 2U);
-  EXPECT_THROW(static_cast<void>(Categories(CategoryBy::object_name).of(scene, scene.objects[0])),
-               Error);
+  EXPECT_EQ(categories.number_of(categories.name_of(scene, scene.objects[0])), 1U);
+  EXPECT_EQ(categories.number_of(categories.name_of(scene, scene.objects[1])), 2U);
+  EXPECT_EQ(categories.number_of(categories.name_of(scene, scene.objects[2])), 2U);
+}
+
+// Variants and animations change materials and visible objects.
+TEST(Coco, ViewsMayShowDifferentScenes) {
+  const Scene scene = overlapping_scene();
+  Scene other = scene;
+  std::swap(other.objects[0].name, other.objects[1].name);
+  other.objects[2].name = "new";
+  Categories categories(CategoryBy::object_name);
+  categories.add(scene);
+  const RenderedView a(scene, unit_camera(kCocoSize), kCocoSize, 0);
+  const RenderedView b(other, unit_camera(kCocoSize), kCocoSize, 1);
+  const Json json = joined(categories, {coco_part(a.view(), categories, a.visible()),
+                                        coco_part(b.view(), categories, b.visible())});
+  ASSERT_EQ(json["annotations"].size(), 6U);
+  for (const Json& annotation : json["annotations"]) {
+    const std::size_t category = annotation["category_id"].get<std::size_t>();
+    EXPECT_EQ(json["categories"][category - 1]["name"], annotation["object_name"]);
+  }
+  ASSERT_EQ(json["categories"].size(), 3U);
+  EXPECT_EQ(json["categories"][2]["name"], "new");
 }
 
 TEST(Coco, EmptyDataSetsAndIncompleteParts) {

@@ -77,10 +77,14 @@ class Store:
         text = self.read(record)
         if text is None:
             return False
-        for file in json.loads(text)["files"]:
+        try:  # a worker that was killed, or a power failure, can leave a part of a record
+            files = [(file["name"], file["size"]) for file in json.loads(text)["files"]]
+        except (ValueError, KeyError, TypeError):
+            return False
+        for name, size in files:
             with self._failures():
                 try:
-                    if self._files.size(self._path(file["name"])) != file["size"]:
+                    if self._files.size(self._path(name)) != size:
                         return False
                 except FileNotFoundError:
                     return False

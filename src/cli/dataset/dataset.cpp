@@ -30,6 +30,8 @@ void check_names(const Arguments& arguments, const std::vector<DatasetView>& vie
   for (std::uint32_t i = 0; i < views.size(); ++i) {
     const std::string name = stem_of(arguments, views[i], i);
     const fs::path path = fs::path(name).lexically_normal();
+    if (!path.has_filename())
+      refuse_usage("--name: a view has no file name; add {view:06d} or give the views names");
     for (const char* folder : {"records", "annotations", "bop"}) {
       if (*path.begin() == folder && path.has_parent_path())
         refuse_usage("--name: the folder " + std::string(folder) +

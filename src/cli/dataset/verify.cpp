@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <set>
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -44,22 +44,24 @@ class TemporaryFolder {
   throw Error(ErrorKind::io, (folder.path() / file).string(), reason);
 }
 
-/// Checks the files that belong to the whole data set: those that the manifest lists, but no
-/// record. Returns their number.
-std::size_t check_common_files(const DatasetFolder& folder) {
-  std::set<std::string> of_views;
-  for (std::uint32_t view = 0; view < folder.identity().views; ++view) {
-    for (const DatasetFile& file : folder.files(view).value_or(std::vector<DatasetFile>{}))
-      of_views.insert(file.name);
-  }
+/// Checks that the manifest lists the files of all views, and the files that it lists after them,
+/// which belong to the whole data set. Returns the number of the latter.
+std::size_t check_manifest(const DatasetFolder& folder) {
   std::error_code error;
   if (!fs::exists(folder.path() / "manifest.json", error))
     fail(folder, "manifest.json", "is missing; continue with microtrace dataset");
-  std::vector<DatasetFile> common = folder.manifest();
-  std::erase_if(common, [&](const DatasetFile& file) { return of_views.contains(file.name); });
-  if (const auto name = first_damaged(folder.path(), common))
+  const std::vector<DatasetFile> listed = folder.manifest();
+  std::span<const DatasetFile> rest(listed);
+  for (std::uint32_t view = 0; view < folder.identity().views; ++view) {
+    for (const DatasetFile& file : folder.files(view).value_or(std::vector<DatasetFile>{})) {
+      if (rest.empty() || rest.front() != file)
+        fail(folder, "manifest.json", "differs from the records; continue with microtrace dataset");
+      rest = rest.subspan(1);
+    }
+  }
+  if (const auto name = first_damaged(folder.path(), rest))
     fail(folder, *name, "is missing or was changed; continue with microtrace dataset");
-  return common.size() + 1;
+  return rest.size() + 1;
 }
 
 /// The arguments with which the data set was started.
@@ -121,7 +123,7 @@ void verify_dataset(const Arguments& arguments) {
                 "lacks " + std::to_string(count - finished.size()) + " of " +
                     std::to_string(count) + " views; continue with microtrace dataset");
   }
-  files += check_common_files(folder);
+  files += check_manifest(folder);
   if (arguments.quiet) return;
   std::fprintf(stderr, "%s: %u views, %zu files, all whole; %zu views rendered again: the same\n",
                printable(arguments.output.string()).c_str(), count, files, sample.size());

@@ -4,6 +4,7 @@
 #include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
 
+#include <microtrace/digest.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/threads.hpp>
 
@@ -57,11 +58,13 @@ void ViewRenderer::load_environment(const DatasetView& view, std::vector<Diagnos
 
 void ViewRenderer::load(const DatasetView& view) {
   if (loaded_ && share_scene(*loaded_, view)) return;
+  loaded_.reset();  // in case that something below throws
   prepared_.reset();
   scene_.reset();
   LoadOptions load = arguments_.load;
   load.variant = view.variant.value_or(arguments_.load.variant);
-  if (load.variant != variant_) {
+  if (load.variant != variant_ || !file_) {
+    file_.reset();
     file_.emplace(arguments_.scene, load);
     variant_ = load.variant;
   }
@@ -74,7 +77,19 @@ void ViewRenderer::load(const DatasetView& view) {
     options.intensity = static_cast<float>(*view.environment_intensity);
   apply_environment(loaded.scene, environment_, options);
   scene_ = std::make_shared<const Scene>(std::move(loaded.scene));
+  check_objects();
   loaded_ = view;
+}
+
+void ViewRenderer::check_objects() {
+  if (!writes(arguments_, DatasetFormat::bop)) return;
+  Digest digest;
+  for (const Object& object : scene_->objects) digest.add(object.name + '\n');
+  if (!objects_) objects_ = digest.value();
+  if (objects_ != digest.value())
+    throw Error(ErrorKind::usage, arguments_.scene,
+                "shows different objects at different times or in variants, but BOP has one list "
+                "of models; write them into data sets of their own");
 }
 
 Camera ViewRenderer::camera_of(const DatasetView& view, ImageSize size) const {

@@ -47,6 +47,8 @@ class ViewRenderer {
  private:
   [[nodiscard]] Camera camera_of(const DatasetView& view, ImageSize size) const;
   void load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings);
+  /// Throws Error (usage) if BOP is written and the loaded scene has other objects than the first.
+  void check_objects();
   std::string save_picture(Film& film, const std::string& name,
                            const std::filesystem::path& folder) const;
   /// Saves the annotations of a rendered view and the pictures that belong to them. Adds the names
@@ -57,7 +59,8 @@ class ViewRenderer {
   Arguments& arguments_;
   Warnings& warnings_;
   MemoryBudget memory_;
-  std::string variant_;  ///< of file_
+  std::string variant_;                   ///< of file_
+  std::optional<std::uint64_t> objects_;  ///< digest of the objects' names, for check_objects()
   std::optional<SceneFile> file_;
   std::optional<DatasetView> loaded_;  ///< the view whose scene is loaded
   std::string environment_source_;     ///< of environment_

@@ -1,6 +1,7 @@
 #include "dataset/annotations/coco.hpp"
 
 #include "dataset/annotations/json_text.hpp"
+#include "io/json/reader.hpp"
 
 #include <microtrace/error.hpp>
 
@@ -26,6 +27,30 @@ std::string end_of_part(std::size_t annotations) {
   return JsonText('{').member("annotations", static_cast<std::uint64_t>(annotations)).text();
 }
 
+/// The line of an annotation: the name of its category, as JSON, and its members.
+struct AnnotationLine {
+  std::string_view category, members;
+
+  explicit AnnotationLine(std::string_view line) {
+    std::size_t end = 1;
+    while (line[end] != '"') end += line[end] == '\\' ? 2 : 1;
+    category = line.substr(0, end + 1);
+    members = line.substr(end + 1);
+  }
+
+  [[nodiscard]] std::string name() const {
+    const io::JsonDocument document(category, "");
+    return io::JsonReader(document).string();
+  }
+  /// Returns the annotation with its ids. The first member is image_id.
+  [[nodiscard]] std::string with(std::uint64_t id, std::uint32_t category_id) const {
+    const std::size_t rest = members.find(',');
+    std::string text = "{\"id\":" + std::to_string(id) + ',';
+    text.append(members.substr(1, rest - 1)).append(",\"category_id\":");
+    return text.append(std::to_string(category_id)).append(members.substr(rest));
+  }
+};
+
 /// Returns the lines of a part without the last one.
 std::vector<std::string_view> lines_of(std::string_view part, std::size_t index) {
   std::vector<std::string_view> lines;
@@ -50,21 +75,15 @@ std::string Categories::name_of(const Scene& scene, const Object& object) const 
   return name.empty() ? "unnamed" : name;
 }
 
-void Categories::add(const Scene& scene) {
-  for (const Object& object : scene.objects) {
-    const auto number = static_cast<std::uint32_t>(names_.size() + 1);
-    const auto [place, is_new] = numbers_.emplace(name_of(scene, object), number);
-    if (is_new) names_.push_back(place->first);
-  }
+std::uint32_t Categories::number_of(const std::string& name) {
+  const auto number = static_cast<std::uint32_t>(names_.size() + 1);
+  const auto [place, is_new] = numbers_.emplace(name, number);
+  if (is_new) names_.push_back(name);
+  return place->second;
 }
 
-std::uint32_t Categories::of(const Scene& scene, const Object& object) const {
-  const auto found = numbers_.find(name_of(scene, object));
-  if (found == numbers_.end())
-    throw Error(ErrorKind::usage, "",
-                "the category \"" + name_of(scene, object) +
-                    "\" is unknown; add the categories of each scene first");
-  return found->second;
+void Categories::add(const Scene& scene) {
+  for (const Object& object : scene.objects) number_of(name_of(scene, object));
 }
 
 std::string coco_part(const DrawnView& view, const Categories& categories, const Masks& visible,
@@ -81,7 +100,6 @@ std::string coco_part(const DrawnView& view, const Categories& categories, const
     const Object& object = scene.objects.at(index);
     JsonText annotation('{');
     annotation.member("image_id", view.index)
-        .member("category_id", categories.of(scene, object))
         .json_member("segmentation", segmentation(mask, view.size))
         .member("area", mask.area())
         .json_member("bbox", bbox(mask))
@@ -95,12 +113,13 @@ std::string coco_part(const DrawnView& view, const Categories& categories, const
           .member("occlude_rate", static_cast<double>(whole->area() - mask.area()) /
                                       static_cast<double>(whole->area()));
     }
+    io::append_json(text, categories.name_of(scene, object));
     text.append(annotation.text()) += '\n';
   }
   return text.append(end_of_part(visible.size())) += '\n';
 }
 
-void join_coco(const Categories& categories, std::size_t count,
+void join_coco(Categories categories, std::size_t count,
                const std::function<std::string(std::size_t)>& part,
                const std::function<void(std::string_view)>& out) {
   std::string text = "{\"info\":{\"description\":\"rendered by microtrace\"},\"licenses\":[],\n";
@@ -119,8 +138,8 @@ void join_coco(const Categories& categories, std::size_t count,
     const std::string bytes = part(i);
     const std::vector<std::string_view> lines = lines_of(bytes, i);
     for (std::size_t k = 1; k < lines.size(); ++k) {
-      text.append(separator).append("{\"id\":").append(std::to_string(++id)) += ',';
-      text.append(lines[k].substr(1));
+      const AnnotationLine line(lines[k]);
+      text.append(separator).append(line.with(++id, categories.number_of(line.name())));
       separator = ",\n";
     }
     out(text);

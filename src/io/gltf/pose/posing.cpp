@@ -24,14 +24,15 @@ const std::vector<double>& Poser::weights(std::size_t index) const {
   return model_.meshes[*node.mesh].weights;
 }
 
-std::vector<DMat4> Poser::world_from_mesh_by_joint(std::size_t index) {
+const std::vector<DMat4>* Poser::world_from_mesh_by_joint(std::size_t index) {
   const Model::Node& node = model_.nodes[index];
-  if (!node.skin || !node.mesh) return {};
+  if (!node.skin || !node.mesh) return nullptr;
   const auto has_joints = [](const Model::Primitive& primitive) {
     return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
   };
-  if (!std::ranges::any_of(model_.meshes[*node.mesh].primitives, has_joints)) return {};
-  return skins_.matrices(*node.skin);
+  if (!std::ranges::any_of(model_.meshes[*node.mesh].primitives, has_joints)) return nullptr;
+  const std::vector<DMat4>& matrices = skins_.matrices(*node.skin);
+  return matrices.empty() ? nullptr : &matrices;
 }
 
 bool Poser::is_rigid(std::size_t index, const Surface& surface) const {

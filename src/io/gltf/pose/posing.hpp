@@ -29,9 +29,9 @@ class Poser {
     return model_.nodes[node].skin.has_value();
   }
 
-  /// Returns the transforms of the node's mesh by each joint of its skin; empty without a skin, and
+  /// Returns the transforms of the node's mesh by each joint of its skin; null without a skin, and
   /// if no primitive of the mesh has joints.
-  [[nodiscard]] std::vector<DMat4> world_from_mesh_by_joint(std::size_t node);
+  [[nodiscard]] const std::vector<DMat4>* world_from_mesh_by_joint(std::size_t node);
 
   /// Returns true if no skin and no morph target moves the surface's vertices.
   [[nodiscard]] bool is_rigid(std::size_t node, const Surface& surface) const;

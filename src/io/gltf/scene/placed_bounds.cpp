@@ -1,5 +1,7 @@
 #include "io/gltf/scene/placed_bounds.hpp"
 
+#include <unordered_map>
+
 namespace microtrace::io::gltf {
 namespace {
 
@@ -20,21 +22,29 @@ PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
     }
   }
   PointBounds result;
+  // The boxes of all meshes with a skin together, so that many of them take no more time than one.
+  std::unordered_map<const std::vector<DMat4>*, PointBounds> skinned;
   for (const PlacedNode& placed : nodes) {
     const Model::Node& node = model.nodes[placed.node];
     if (node.camera) result.add(DVec3(placed.world_from_node[3]));
     if (!node.mesh || !placed.visible) continue;
     const PointBounds& box = boxes[*node.mesh];
     if (!(box.low.x <= box.high.x)) continue;
-    const std::vector<DMat4> by_joint = poser.world_from_mesh_by_joint(placed.node);
-    for (const DMat4& world_from_mesh : by_joint) add_corners(box, world_from_mesh, result);
-    if (!by_joint.empty()) continue;
+    if (const std::vector<DMat4>* by_joint = poser.world_from_mesh_by_joint(placed.node)) {
+      PointBounds& all = skinned[by_joint];
+      all.add(box.low);
+      all.add(box.high);
+      continue;
+    }
     if (const std::vector<DMat4>* each = instances.of(placed.node)) {
       for (const DMat4& instance : *each)
         add_corners(box, placed.world_from_node * instance, result);
     } else {
       add_corners(box, placed.world_from_node, result);
     }
+  }
+  for (const auto& [by_joint, box] : skinned) {
+    for (const DMat4& world_from_mesh : *by_joint) add_corners(box, world_from_mesh, result);
   }
   return result;
 }

@@ -58,7 +58,7 @@ StoredPicture load(const std::filesystem::path& path) {
   if (start.starts_with("P3") || start.starts_with("P6"))
     return stored(io::decode_ppm(bytes, name));
   const bool is_codec = start.starts_with("\x89PNG") || start.starts_with("\xff\xd8\xff") ||
-                        (start.starts_with("RIFF") && start.substr(8, 4) == "WEBP");
+                        (start.starts_with("RIFF") && start.substr(0, 12).ends_with("WEBP"));
   if (!is_codec) {
     const io::DecodedColors decoded =
         io::decode_colors(bytes, path,
