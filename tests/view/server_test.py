@@ -146,6 +146,11 @@ class Access(unittest.TestCase):
         self.assertEqual(raw(self.viewer, b""), b"")
         self.assertEqual(self.viewer.request("GET", "").status, 200)
 
+    def test_requests_may_follow_each_other_at_once(self):
+        line = f"GET /{self.viewer.token}/ HTTP/1.1\r\nHost: 127.0.0.1:{self.viewer.port}\r\n"
+        answer = raw(self.viewer, f"{line}\r\n{line}\r\n{line}Connection: close\r\n\r\n".encode(), timeout=10)
+        self.assertEqual(answer.count(b"HTTP/1.1 200 "), 3)
+
     def test_many_and_slow_connections(self):
         waiting = []
         for _ in range(200):

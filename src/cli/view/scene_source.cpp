@@ -44,13 +44,7 @@ std::shared_ptr<const ShownScene> SceneSource::get(const LoadOptions& wanted) {
     return fixed_;
   }
   const std::scoped_lock lock(mutex_);
-  const std::uint64_t revision = revision_;
-  if (revision != loaded_revision_) {
-    file_.reset();
-    scenes_.clear();
-    environments_.clear();
-    loaded_revision_ = revision;
-  }
+  forget_stale();
   const auto known = std::ranges::find(scenes_, key, [](const auto& entry) { return entry.first; });
   if (known != scenes_.end()) return known->second;
   std::shared_ptr<const ShownScene> scene = load(key);
@@ -59,9 +53,22 @@ std::shared_ptr<const ShownScene> SceneSource::get(const LoadOptions& wanted) {
   return scene;
 }
 
+void SceneSource::forget_stale() {
+  const std::uint64_t revision = revision_;
+  if (revision == loaded_revision_) return;
+  file_.reset();
+  scenes_.clear();
+  environments_.clear();
+  loaded_revision_ = revision;
+}
+
+void SceneSource::note_files(const std::set<std::string>& names) {
+  const std::scoped_lock lock(files_mutex_);
+  files_.insert(names.begin(), names.end());
+}
+
 std::shared_ptr<const ShownScene> SceneSource::load(const Key& key) {
   const ReadFiles reading;
-  const auto note_files = [&] { files_.insert(reading.names().begin(), reading.names().end()); };
   try {
     if (!file_ || file_key_.variant != key.variant || file_key_.animation != key.animation) {
       LoadOptions options = options_;
@@ -71,7 +78,7 @@ std::shared_ptr<const ShownScene> SceneSource::load(const Key& key) {
       file_key_ = key;
     }
     LoadedScene loaded = file_->at(key.time);
-    note_files();
+    note_files(reading.names());
     PrepareOptions prepare{.threads = threads_, .memory = &memory_};
     // Refitting the tree of the previous time is faster than building another one.
     if (!scenes_.empty()) prepare.tables = scenes_.front().second->prepared.tables();
@@ -81,7 +88,7 @@ std::shared_ptr<const ShownScene> SceneSource::load(const Key& key) {
                      .warnings = std::move(loaded.warnings),
                      .choices = file_->choices()}));
   } catch (...) {
-    note_files();
+    note_files(reading.names());
     file_.reset();
     throw;
   }
@@ -93,11 +100,12 @@ std::optional<Environment> SceneSource::environment(const EnvironmentOptions& op
       options.source ? std::get_if<std::filesystem::path>(&*options.source) : nullptr;
   if (file == nullptr) return load_environment(options, warnings, memory_);
   const std::scoped_lock lock(mutex_);
+  forget_stale();
   const std::string name = file->string();
   const auto known =
       std::ranges::find(environments_, name, [](const auto& entry) { return entry.first; });
   if (known != environments_.end()) return known->second;
-  files_.insert(name);
+  note_files({name});
   std::optional<Environment> environment = load_environment(options, warnings, memory_);
   environments_.emplace_front(name, *environment);
   if (environments_.size() > kEnvironments) environments_.pop_back();
@@ -109,7 +117,7 @@ void SceneSource::discard() {
 }
 
 std::set<std::string> SceneSource::files() const {
-  const std::scoped_lock lock(mutex_);
+  const std::scoped_lock lock(files_mutex_);
   return files_;
 }
 

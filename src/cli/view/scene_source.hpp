@@ -70,6 +70,9 @@ class SceneSource {
   };
 
   [[nodiscard]] std::shared_ptr<const ShownScene> load(const Key& key);
+  /// Forgets what was read before the last call of discard(). The caller holds mutex_.
+  void forget_stale();
+  void note_files(const std::set<std::string>& names);
 
   MemoryBudget memory_;
   LoadOptions options_;
@@ -84,7 +87,9 @@ class SceneSource {
   Key file_key_;  // its time is not used
   std::deque<std::pair<Key, std::shared_ptr<const ShownScene>>> scenes_;
   std::deque<std::pair<std::string, Environment>> environments_;
-  std::set<std::string> files_;
+
+  mutable std::mutex files_mutex_;  // another one, because loading a scene takes long
+  std::set<std::string> files_;     // guarded by files_mutex_
 };
 
 }  // namespace microtrace::cli

@@ -59,31 +59,36 @@ Connection::~Connection() {
 }
 
 void Connection::read() {
+  if (buffer_.size() > 0) return receive();  // a request that follows the previous one at once
   stream_.expires_after(kTimeToWait);
-  // Waits for the first byte, then limits the time for the rest.
+  // Waits for the first byte. receive() limits the time for the rest.
   stream_.async_read_some(
       buffer_.prepare(1),
       [self = shared_from_this()](const boost::system::error_code& error, std::size_t size) {
         if (error) return;
         self->buffer_.commit(size);
-        self->parser_.emplace();
-        self->parser_->header_limit(kMostHeader);
-        self->parser_->body_limit(kMostBody);
-        self->stream_.expires_after(kTimeToSend);
-        beast::http::async_read(
-            self->stream_, self->buffer_, *self->parser_,
-            [self](const boost::system::error_code& failure, std::size_t) {
-              using beast::http::error;
-              if (failure == error::body_limit)
-                self->refuse(status::payload_too_large, "too long");
-              else if (failure == error::header_limit || failure == error::buffer_overflow)
-                self->refuse(status::request_header_fields_too_large, "too long");
-              else if (failure.category() == make_error_code(error::bad_method).category() &&
-                       failure != error::end_of_stream && failure != error::partial_message)
-                self->refuse(status::bad_request, failure.message());
-              else if (!failure)
-                self->answer();
-            });
+        self->receive();
+      });
+}
+
+void Connection::receive() {
+  parser_.emplace();
+  parser_->header_limit(kMostHeader);
+  parser_->body_limit(kMostBody);
+  stream_.expires_after(kTimeToSend);
+  beast::http::async_read(
+      stream_, buffer_, *parser_,
+      [self = shared_from_this()](const boost::system::error_code& failure, std::size_t) {
+        using beast::http::error;
+        if (failure == error::body_limit)
+          self->refuse(status::payload_too_large, "too long");
+        else if (failure == error::header_limit || failure == error::buffer_overflow)
+          self->refuse(status::request_header_fields_too_large, "too long");
+        else if (failure.category() == make_error_code(error::bad_method).category() &&
+                 failure != error::end_of_stream && failure != error::partial_message)
+          self->refuse(status::bad_request, failure.message());
+        else if (!failure)
+          self->answer();
       });
 }
 

@@ -36,6 +36,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   static constexpr std::uint32_t kMostHeader = 16 << 10;
   static constexpr std::uint64_t kMostBody = 64 << 10;
 
+  void receive();
   void answer();
   void refuse(boost::beast::http::status status, const std::string& text);
 
