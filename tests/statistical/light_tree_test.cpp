@@ -43,6 +43,31 @@ std::vector<LightBounds> lights(Random& random, int count) {
   return result;
 }
 
+LightNodes<1> small_light(float cos_o) {
+  const float sin_o = std::sqrt(1 - cos_o * cos_o);
+  return LightNodes<1>(LightNode{.center = {0, 0, 0},
+                                 .radius = 1e-4F,
+                                 .axis = {0, 0, 1},
+                                 .power = 1,
+                                 .cos_o = cos_o,
+                                 .sin_o = sin_o,
+                                 .cos_e = 0,
+                                 .is_two_sided = 0});
+}
+
+// Behind a light, the angle to its axis is near pi, whose sine is that of 0.
+TEST(LightTree, LightsDontShineBehindThem) {
+  for (const float x : {0.0F, 1e-4F, 3e-4F, 1e-3F, 0.1F, 1.0F}) {
+    for (const float cos_o : {1.0F, 0.9F}) {
+      EXPECT_EQ(small_light(cos_o).importance({x, 0, -3}, {0, 0, 1}), 0) << x;
+      EXPECT_GT(small_light(cos_o).importance({x, 0, 3}, {0, 0, 1}), 0.05F) << x;
+    }
+    EXPECT_GT(small_light(-0.9F).importance({x, 0, -3}, {0, 0, 1}), 0) << x;
+    EXPECT_EQ(small_light(-1).importance({x, 0, 3}, {0, 0, 1}),
+              small_light(-1).importance({x, 0, -3}, {0, 0, 1}));
+  }
+}
+
 // The sum may be below 1, because a node may have bounds that contribute although neither of its
 // children does.
 TEST(LightTree, ProbabilitiesAddUpToOne) {

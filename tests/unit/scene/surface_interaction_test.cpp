@@ -202,6 +202,16 @@ TEST(SurfaceInteraction, TangentsTouchTheFrontsOfSpheres) {
   EXPECT_EQ(touched.n, DVec3(0, 1, 0));
 }
 
+// The expected point was computed with 300 bits.
+TEST(SurfaceInteraction, SmallDistantSpheresHaveExactPoints) {
+  const Sphere sphere{{6.551185131072998F, -4.735469341278076F, -8.705358505249023F},
+                      0.0028079068F};
+  const Ray ray{.o = {-7.797708034515381F, -3.4627416133880615F, 8.025738716125488F},
+                .d = {0.6499149799346924F, -0.057558126747608185F, -0.7578242421150208F}};
+  expect_near(meet(sphere, ray).p, {6.549842523461461, -4.733397251478956, -8.704021273247774},
+              5e-15);
+}
+
 TEST(SurfaceInteraction, SidesOfTrianglesAreExact) {
   // n . d is positive, but float64 gives a negative number.
   const Triangle triangle{{2, 0, -1}, {0x1p-61F, 0x1p-60F, 0x1p-60F}, {0, 0x1p-41F, 0}};
