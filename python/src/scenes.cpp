@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
@@ -28,21 +29,31 @@ SurfaceDetail detail_named(const std::string& name) {
   throw nb::value_error("detail must be one of shape, color, shape_and_color, all");
 }
 
-std::unique_ptr<SceneFile> open(const std::filesystem::path& path, const std::string& detail,
-                                std::string variant, std::string animation,
-                                std::vector<std::filesystem::path> allowed_folders) {
+/// A scene file that threads of Python may share.
+struct SharedFile {
+  SharedFile(const std::filesystem::path& path, LoadOptions options)
+      : file(path, std::move(options)) {}
+
+  SceneFile file;
+  std::mutex mutex;  // SceneFile::at() changes the file's state
+};
+
+std::unique_ptr<SharedFile> open(const std::filesystem::path& path, const std::string& detail,
+                                 std::string variant, std::string animation,
+                                 std::vector<std::filesystem::path> allowed_folders) {
   LoadOptions options{.detail = detail_named(detail),
                       .variant = std::move(variant),
                       .animation = std::move(animation),
                       .allowed_folders = std::move(allowed_folders)};
   const nb::gil_scoped_release release;
-  return std::make_unique<SceneFile>(path, std::move(options));
+  return std::make_unique<SharedFile>(path, std::move(options));
 }
 
-nb::tuple at(SceneFile& file, std::optional<double> time) {
+nb::tuple at(SharedFile& shared, std::optional<double> time) {
   LoadedScene loaded = [&] {
     const nb::gil_scoped_release release;
-    return file.at(time);
+    const std::scoped_lock lock(shared.mutex);
+    return shared.file.at(time);
   }();
   nb::list warnings;
   for (const Diagnostic& warning : loaded.warnings) warnings.append(to_python(warning));
@@ -69,7 +80,7 @@ void prepare(Prepared* self, const nb::object& source, const nb::object& previou
 
 void bind_scenes(nb::module_& module) {
   module.def("linear_from_srgb", &linear_from_srgb);
-  nb::class_<SceneFile>(module, "SceneFile")
+  nb::class_<SharedFile>(module, "SceneFile")
       .def(nb::new_(&open))
       .def("at", &at, nb::arg("time").none());
   nb::class_<Prepared>(module, "Prepared")

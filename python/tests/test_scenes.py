@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import concurrent.futures
 import dataclasses
 import gc
 import os
@@ -23,6 +24,15 @@ def test_files_are_not_pickled():
     for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
         with pytest.raises(TypeError, match="cannot pickle"):
             pickle.dumps(mt.SceneFile(KNOT), protocol)
+
+
+def test_threads_may_share_a_file():
+    file = mt.SceneFile(SCENES / "gltf" / "moving.glb")
+    times = [0.05 * k for k in range(20)]
+    alone = [pickle.dumps(file.at(time)) for time in times]
+    with concurrent.futures.ThreadPoolExecutor(8) as pool:
+        together = list(pool.map(lambda time: pickle.dumps(file.at(time)), times * 5))
+    assert together == alone * 5
 
 
 def test_errors_name_paths_that_are_not_utf_8(tmp_path):
