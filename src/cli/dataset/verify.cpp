@@ -3,12 +3,12 @@
 #include "cli/dataset/plan.hpp"
 #include "cli/dataset/view_renderer.hpp"
 #include "cli/options/parse.hpp"
+#include "cli/temporary_folder.hpp"
 
 #include <microtrace/dataset.hpp>
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <system_error>
@@ -17,28 +17,6 @@ namespace microtrace::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that is removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "microtrace-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-      throw Error(ErrorKind::io, pattern, "can't be created; set TMPDIR to a folder with space");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 [[noreturn]] void fail(const DatasetFolder& folder, const std::string& file, const char* reason) {
   throw Error(ErrorKind::io, (folder.path() / file).string(), reason);

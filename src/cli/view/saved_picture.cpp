@@ -1,43 +1,19 @@
 #include "cli/view/saved_picture.hpp"
 
 #include "cli/options/option_value.hpp"
+#include "cli/temporary_folder.hpp"
 #include "io/file.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <system_error>
 
 namespace microtrace::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that is removed with its content.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    std::string pattern = (fs::temp_directory_path(error) / "microtrace-XXXXXX").string();
-    if (error || ::mkdtemp(pattern.data()) == nullptr)
-      throw Error(ErrorKind::io, pattern, "can't be created; set TMPDIR to a folder with room");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// The scene's name, without characters that have a meaning in header fields.
 std::string file_name(const std::string& scene, const std::string& extension) {
