@@ -62,6 +62,8 @@ void redraw(const DatasetFolder& folder, const std::vector<std::uint32_t>& indic
   arguments.memory_limit = given.memory_limit;
   arguments.quiet = true;
   const std::vector<DatasetView> views = views_of(arguments);
+  if (views.size() != folder.identity().views)
+    fail(folder, "dataset.json", "was changed: its arguments give another number of views");
   Warnings warnings(arguments);
   ViewRenderer renderer(arguments, warnings);
   const TemporaryFolder copy;
