@@ -158,6 +158,16 @@ class Compare(ProgramTest):
                                 (["a.png", "a.png", "--threshold", "-1"], 2), (["a.png", "a.png", "--threshold", "nan"], 2)):
             self.compare(*arguments, code=code)
 
+    def test_the_comparison_keeps_standard_output(self):
+        self.draw("a.ppm")
+        self.assertEqual(self.compare("a.ppm", "a.ppm", "-o", "-", code=2).stdout, b"")
+
+    def test_beginnings_of_riff_files_are_no_pictures(self):
+        self.draw("a.ppm")
+        for size in range(4, 12):
+            (self.folder / "b.webp").write_bytes(b"RIFF\0\0\0\0WEB"[:size])
+            self.assertNotEqual(self.compare("a.ppm", "b.webp").returncode, 1, size)
+
     def test_infinities(self):
         self.draw("a.exr", "--integrator", "depth")  # infinite where nothing is visible
         self.compare("a.exr", "a.exr", code=0)

@@ -359,6 +359,12 @@ class Explain(ProgramTest):
         hits = self.verdicts({**color(0.25)})
         self.assertEqual((hits["mesh0"]["verdict"], hits["mesh0"]["alpha"]["coverage"]), ("visible", 1))
 
+    def test_rays_far_from_the_origin_are_read_in_float64(self):
+        scene = SOURCE / "scenes/gltf/far.glb"
+        ray = self.explain(scene, "--ray=4510731.3,4510732.1,3004.7,0,0,-1")["ray"]
+        for given, origin, part in zip((4510731.3, 4510732.1, 3004.7), ray["scene_origin"], ray["origin"]):
+            self.assertLess(abs(origin + part - given), 1e-6)
+
     def test_culled_backs(self):
         scene = self.write("quad.gltf", two_squares({}))
         e = self.explain_ray(scene, [0.5, 0.25, -3.0], [0.0, 0.0, 1.0])
