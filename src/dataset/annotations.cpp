@@ -17,12 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-dataset::Categories categories_of(const Scene& scene, CocoCategories kind) {
-  dataset::Categories categories(kind == CocoCategories::materials
-                                     ? dataset::CategoryBy::material_name
-                                     : dataset::CategoryBy::object_name);
-  categories.add(scene);
-  return categories;
+dataset::CategoryBy category_by(CocoCategories kind) {
+  return kind == CocoCategories::materials ? dataset::CategoryBy::material_name
+                                           : dataset::CategoryBy::object_name;
 }
 
 std::vector<std::uint32_t> objects_of(const AnnotatedPicture& picture) {
@@ -73,8 +70,8 @@ Annotations annotate(const PreparedScene& scene, const AnnotatedPicture& picture
   }
   Annotations result;
   if (formats.coco) {
-    result.coco = dataset::coco_part(view, categories_of(scene.scene(), formats.coco->categories),
-                                     visible, formats.coco->amodal ? &amodal : nullptr);
+    result.coco = dataset::coco_part(view, category_by(formats.coco->categories), visible,
+                                     formats.coco->amodal ? &amodal : nullptr);
   }
   if (formats.bop_depth_scale) {
     dataset::BopView bop = dataset::bop_view(view, dataset::BopFrames(scene.scene()), visible,
@@ -89,8 +86,10 @@ Annotations annotate(const PreparedScene& scene, const AnnotatedPicture& picture
 
 void join_coco(std::span<const fs::path> parts, const Scene& scene, CocoCategories categories,
                const fs::path& output) {
+  dataset::Categories of_scene(category_by(categories));
+  of_scene.add(scene);
   write_joined(output, [&](const auto& out) {
-    dataset::join_coco(categories_of(scene, categories), parts.size(), reader_of(parts), out);
+    dataset::join_coco(of_scene, parts.size(), reader_of(parts), out);
   });
 }
 

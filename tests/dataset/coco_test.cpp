@@ -112,7 +112,7 @@ TEST(Coco, PartsAreJoinedWithRunningIds) {
   std::vector<std::string> parts;
   for (const RenderedView* view : {&first, &empty, &second}) {
     const Masks amodal = view->amodal();
-    parts.push_back(coco_part(view->view(), categories, view->visible(), &amodal));
+    parts.push_back(coco_part(view->view(), CategoryBy::object_name, view->visible(), &amodal));
   }
   const Json json = joined(categories, parts);
   EXPECT_EQ(json["images"].size(), 3U);
@@ -143,9 +143,12 @@ TEST(Coco, CategoriesByMaterial) {
   categories.add(scene);
   categories.add(scene);
   EXPECT_THAT(categories.names(), ElementsAre("steel", "unnamed"));
-  EXPECT_EQ(categories.number_of(categories.name_of(scene, scene.objects[0])), 1U);
-  EXPECT_EQ(categories.number_of(categories.name_of(scene, scene.objects[1])), 2U);
-  EXPECT_EQ(categories.number_of(categories.name_of(scene, scene.objects[2])), 2U);
+  EXPECT_EQ(categories.number_of(category_name(CategoryBy::material_name, scene, scene.objects[0])),
+            1U);
+  EXPECT_EQ(categories.number_of(category_name(CategoryBy::material_name, scene, scene.objects[1])),
+            2U);
+  EXPECT_EQ(categories.number_of(category_name(CategoryBy::material_name, scene, scene.objects[2])),
+            2U);
 }
 
 // Variants and animations change materials and visible objects.
@@ -158,8 +161,8 @@ TEST(Coco, ViewsMayShowDifferentScenes) {
   categories.add(scene);
   const RenderedView a(scene, unit_camera(kCocoSize), kCocoSize, 0);
   const RenderedView b(other, unit_camera(kCocoSize), kCocoSize, 1);
-  const Json json = joined(categories, {coco_part(a.view(), categories, a.visible()),
-                                        coco_part(b.view(), categories, b.visible())});
+  const Json json = joined(categories, {coco_part(a.view(), CategoryBy::object_name, a.visible()),
+                                        coco_part(b.view(), CategoryBy::object_name, b.visible())});
   ASSERT_EQ(json["annotations"].size(), 6U);
   for (const Json& annotation : json["annotations"]) {
     const std::size_t category = annotation["category_id"].get<std::size_t>();
@@ -179,7 +182,7 @@ TEST(Coco, EmptyDataSetsAndIncompleteParts) {
   Categories known(CategoryBy::object_name);
   known.add(scene);
   const RenderedView view(scene, unit_camera(kCocoSize), kCocoSize);
-  const std::string part = coco_part(view.view(), known, view.visible());
+  const std::string part = coco_part(view.view(), CategoryBy::object_name, view.visible());
   EXPECT_EQ(joined(known, {part})["annotations"].size(), 3U);
   for (std::size_t size = 0; size < part.size(); ++size)
     EXPECT_THROW(static_cast<void>(joined(known, {part.substr(0, size)})), Error) << size;

@@ -58,7 +58,7 @@ void write_data_set(const std::filesystem::path& folder) {
     const RenderedView rendered(scene, camera, size, i);
     const DrawnView view = rendered.view();
     const Masks visible = rendered.visible(), amodal = rendered.amodal();
-    coco_parts.push_back(coco_part(view, categories, visible, &amodal));
+    coco_parts.push_back(coco_part(view, CategoryBy::object_name, visible, &amodal));
     const BopView bop = bop_view(view, frames, visible, amodal, {.depth_scale = 0.25});
     bop_parts.push_back(bop.part);
     for (const NamedBytes& file : bop.files) write(folder / "bop/train/000000", file);

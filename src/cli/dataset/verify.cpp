@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace microtrace::cli {
 namespace {
@@ -22,24 +23,20 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::io, (folder.path() / file).string(), reason);
 }
 
-/// Checks that the manifest lists the files of all views, and the files that it lists after them,
-/// which belong to the whole data set. Returns the number of the latter.
-std::size_t check_manifest(const DatasetFolder& folder) {
+/// Checks that the manifest begins with the files of all views, as recorded, and the files that it
+/// lists after them, which belong to the whole data set. Returns the number of the latter.
+std::size_t check_manifest(const DatasetFolder& folder, const std::vector<DatasetFile>& recorded) {
   std::error_code error;
   if (!fs::exists(folder.path() / "manifest.json", error))
     fail(folder, "manifest.json", "is missing; continue with microtrace dataset");
   const std::vector<DatasetFile> listed = folder.manifest();
-  std::span<const DatasetFile> rest(listed);
-  for (std::uint32_t view = 0; view < folder.identity().views; ++view) {
-    for (const DatasetFile& file : folder.files(view).value_or(std::vector<DatasetFile>{})) {
-      if (rest.empty() || rest.front() != file)
-        fail(folder, "manifest.json", "differs from the records; continue with microtrace dataset");
-      rest = rest.subspan(1);
-    }
-  }
-  if (const auto name = first_damaged(folder.path(), rest))
+  const auto differs = std::ranges::mismatch(recorded, listed);
+  if (differs.in1 != recorded.end())
+    fail(folder, "manifest.json", "differs from the records; continue with microtrace dataset");
+  const std::span<const DatasetFile> common(differs.in2, listed.end());
+  if (const auto name = first_damaged(folder.path(), common))
     fail(folder, *name, "is missing or was changed; continue with microtrace dataset");
-  return rest.size() + 1;
+  return common.size() + 1;
 }
 
 /// The arguments with which the data set was started.
@@ -80,14 +77,14 @@ void verify_dataset(const Arguments& arguments) {
   const DatasetFolder folder(fs::absolute(arguments.output));
   const std::uint32_t count = folder.identity().views;
   std::vector<std::uint32_t> finished;
-  std::size_t files = 0;
+  std::vector<DatasetFile> recorded;
   for (std::uint32_t view = 0; view < count; ++view) {
     const auto known = folder.files(view);
     if (!known) continue;
     if (const auto name = first_damaged(folder.path(), *known))
       fail(folder, *name, "is missing or was changed since it was rendered");
     finished.push_back(view);
-    files += known->size();
+    recorded.insert(recorded.end(), known->begin(), known->end());
   }
   const std::size_t wanted = std::min<std::size_t>(arguments.dataset.redraw, finished.size());
   std::vector<std::uint32_t> sample;
@@ -103,7 +100,7 @@ void verify_dataset(const Arguments& arguments) {
                 "lacks " + std::to_string(count - finished.size()) + " of " +
                     std::to_string(count) + " views; continue with microtrace dataset");
   }
-  files += check_manifest(folder);
+  const std::size_t files = recorded.size() + check_manifest(folder, recorded);
   if (arguments.quiet) return;
   std::fprintf(stderr, "%s: %u views, %zu files, all whole; %zu views rendered again: the same\n",
                printable(arguments.output.string()).c_str(), count, files, sample.size());

@@ -5,6 +5,7 @@
 
 #include <microtrace/error.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace microtrace::dataset {
@@ -27,16 +28,17 @@ std::string end_of_part(std::size_t annotations) {
   return JsonText('{').member("annotations", static_cast<std::uint64_t>(annotations)).text();
 }
 
+/// Separates the name of the category from the members in the line of an annotation. JSON escapes
+/// tabs in names.
+constexpr char kSeparator = '\t';
+
 /// The line of an annotation: the name of its category, as JSON, and its members.
 struct AnnotationLine {
   std::string_view category, members;
 
-  explicit AnnotationLine(std::string_view line) {
-    std::size_t end = 1;
-    while (line[end] != '"') end += line[end] == '\\' ? 2 : 1;
-    category = line.substr(0, end + 1);
-    members = line.substr(end + 1);
-  }
+  explicit AnnotationLine(std::string_view line)
+      : category(line.substr(0, line.find(kSeparator))),
+        members(line.substr(std::min(category.size() + 1, line.size()))) {}
 
   [[nodiscard]] std::string name() const {
     const io::JsonDocument document(category, "");
@@ -68,10 +70,10 @@ std::vector<std::string_view> lines_of(std::string_view part, std::size_t index)
 
 }  // namespace
 
-std::string Categories::name_of(const Scene& scene, const Object& object) const {
-  std::string name = by_ == CategoryBy::object_name ? object.name
-                     : object.material              ? scene.materials[*object.material].name
-                                                    : std::string();
+std::string category_name(CategoryBy by, const Scene& scene, const Object& object) {
+  std::string name = by == CategoryBy::object_name ? object.name
+                     : object.material             ? scene.materials[*object.material].name
+                                                   : std::string();
   return name.empty() ? "unnamed" : name;
 }
 
@@ -83,10 +85,10 @@ std::uint32_t Categories::number_of(const std::string& name) {
 }
 
 void Categories::add(const Scene& scene) {
-  for (const Object& object : scene.objects) number_of(name_of(scene, object));
+  for (const Object& object : scene.objects) number_of(category_name(by_, scene, object));
 }
 
-std::string coco_part(const DrawnView& view, const Categories& categories, const Masks& visible,
+std::string coco_part(const DrawnView& view, CategoryBy by, const Masks& visible,
                       const Masks* amodal) {
   std::string text = JsonText('{')
                          .member("id", view.index)
@@ -113,7 +115,8 @@ std::string coco_part(const DrawnView& view, const Categories& categories, const
           .member("occlude_rate", static_cast<double>(whole->area() - mask.area()) /
                                       static_cast<double>(whole->area()));
     }
-    io::append_json(text, categories.name_of(scene, object));
+    io::append_json(text, category_name(by, scene, object));
+    text += kSeparator;
     text.append(annotation.text()) += '\n';
   }
   return text.append(end_of_part(visible.size())) += '\n';

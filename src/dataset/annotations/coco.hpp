@@ -18,6 +18,9 @@ namespace microtrace::dataset {
 /// The property of objects that determines their category.
 enum class CategoryBy { object_name, material_name };
 
+/// Returns the name of an object's category.
+[[nodiscard]] std::string category_name(CategoryBy by, const Scene& scene, const Object& object);
+
 /// The categories of a data set, numbered from 1 in the order in which they were added.
 class Categories {
  public:
@@ -28,9 +31,6 @@ class Categories {
 
   /// Returns the number of the category with this name, which is added if it is new.
   std::uint32_t number_of(const std::string& name);
-
-  /// Returns the name of an object's category.
-  [[nodiscard]] std::string name_of(const Scene& scene, const Object& object) const;
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
@@ -45,13 +45,13 @@ class Categories {
 /// number of annotations: views may show different scenes, whose objects and materials differ. If
 /// `amodal` is not null, annotations also have the members amodal_segmentation, amodal_area,
 /// amodal_bbox and occlude_rate, the hidden fraction of the amodal area (as in COCO Amodal).
-[[nodiscard]] std::string coco_part(const DrawnView& view, const Categories& categories,
-                                    const Masks& visible, const Masks* amodal = nullptr);
+[[nodiscard]] std::string coco_part(const DrawnView& view, CategoryBy by, const Masks& visible,
+                                    const Masks* amodal = nullptr);
 
 /// Passes the JSON file for the parts of `count` views to `out`. Image ids are the views' indices.
 /// Annotation ids count from 1 in the order of the parts. Categories that are new follow the given
-/// ones. Calls part(i) twice for each i, in order,
-/// and keeps one part in memory at a time. Throws Error (io) if a part is incomplete.
+/// ones. Calls part(i) twice for each i, in order, and keeps one part in memory at a time. Throws
+/// Error (io) if a part is incomplete.
 void join_coco(Categories categories, std::size_t count,
                const std::function<std::string(std::size_t)>& part,
                const std::function<void(std::string_view)>& out);
