@@ -1,9 +1,12 @@
 #include "accel/few_triangles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,50 +14,158 @@
 namespace microtrace {
 namespace {
 
-void put(float (&to)[3], const Vec3& v) {
+using Entry = FewTriangles::Entry;
+using Facet = FewTriangles::Facet;
+
+void put(const Vec3& v, float (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = v[k];
+}
+
+Vec3 vertex(const Entry& entry, int k) {
+  const float(&v)[3] = entry.vertices[k];
+  return {v[0], v[1], v[2]};
+}
+
+template <class Vector>
+auto largest_component(const Vector& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+FewTriangles::Box common_box(const FewTriangles::Box& a, const FewTriangles::Box& b) {
+  FewTriangles::Box box = a;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = std::min(a.lo[k], b.lo[k]);
+    box.hi[k] = std::max(a.hi[k], b.hi[k]);
+  }
+  return box;
+}
+
+/// Returns the axis that a vector is along, or kOblique.
+int axis_of(const Vec3& v) {
+  for (int k = 0; k < 3; ++k) {
+    if (v[k] != 0 && v[(k + 1) % 3] == 0 && v[(k + 2) % 3] == 0) return k;
+  }
+  return FewTriangles::kOblique;
+}
+
+void put_edges(const Vec3& a, const Vec3& b, const Vec3& c, Facet& facet) {
+  Vec3 e1 = b - a, e2 = c - a;
+  const int axis1 = axis_of(e1), axis2 = axis_of(e2);
+  facet.axis = FewTriangles::kOblique;
+  if (axis1 != axis2 && axis1 < 3 && axis2 < 3) {
+    facet.axis = 3 - axis1 - axis2;
+    if (axis1 != (facet.axis + 1) % 3) std::swap(e1, e2);
+  }
+  put(a, facet.a);
+  put(e1, facet.e1);
+  put(e2, facet.e2);
+  put(glm::cross(e1, e2), facet.n);
+}
+
+Facet facet_of(const Entry& entry, int number, const TriangleBlock& block) {
+  Facet facet{};
+  put_edges(vertex(entry, 0), vertex(entry, 1), vertex(entry, 2), facet);
+  facet.largest_edge = block.largest_edge;
+  facet.edge_product = block.edge_product;
+  facet.box = entry.box;
+  facet.first = number;
+  facet.second = -1;
+  return facet;
+}
+
+/// The corners of two triangles with a common edge (b, c).
+struct Quadrilateral {
+  Vec3 a, b, c, d;
+};
+
+std::optional<Quadrilateral> joined(const Entry& first, const Entry& second) {
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 b = vertex(first, (k + 1) % 3), c = vertex(first, (k + 2) % 3);
+    for (int m = 0; m < 3; ++m) {
+      const Vec3 p = vertex(second, (m + 1) % 3), q = vertex(second, (m + 2) % 3);
+      if ((b == p && c == q) || (b == q && c == p))
+        return Quadrilateral{.a = vertex(first, k), .b = b, .c = c, .d = vertex(second, m)};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Makes `facet` the parallelogram of both triangles. Returns false, without effect, if they don't
+/// form one.
+bool join(const Entry& first, const Entry& second, int number, double most_growth, Facet& facet) {
+  const std::optional<Quadrilateral> corners = joined(first, second);
+  if (!corners) return false;
+  const auto& [a, b, c, d] = *corners;
+  const double em = std::max(largest_component(b - a), largest_component(c - a));
+  const double m = double{largest_component(b - a)} * largest_component(c - a);
+  // The distance of d from b + c - a. Float64 rounds it by less than the second term.
+  const double off =
+      largest_component((DVec3(a) + DVec3(d)) - (DVec3(b) + DVec3(c))) +
+      0x1p-50 * std::max({largest_component(a), largest_component(b), largest_component(d)});
+  const double more_product = 10 / (15 * 0x1p-24) * em * off;
+  if (more_product > most_growth * m) return false;
+  put_edges(a, b, c, facet);
+  const auto rounded_up = [](double x) { return static_cast<float>(x * (1 + 0x1p-20) + 0x1p-126); };
+  facet.largest_edge = rounded_up(em);
+  facet.edge_product = rounded_up(m + more_product);
+  facet.height_slack = rounded_up(6 * m * off);
+  facet.box = common_box(first.box, second.box);
+  facet.second = number;
+  return true;
+}
+
+Entry entry_of(const TriangleBlock& block, std::size_t lane) {
+  const Vec3 a(block.a[0][lane], block.a[1][lane], block.a[2][lane]);
+  const Vec3 b(block.b[0][lane], block.b[1][lane], block.b[2][lane]);
+  const Vec3 c(block.c[0][lane], block.c[1][lane], block.c[2][lane]);
+  Entry entry{};
+  put(a, entry.vertices[0]);
+  put(b, entry.vertices[1]);
+  put(c, entry.vertices[2]);
+  const Vec3 lo = glm::min(a, glm::min(b, c)), hi = glm::max(a, glm::max(b, c));
+  put(lo, entry.box.lo);
+  put(hi, entry.box.hi);
+  entry.plane_axis = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (lo[axis] != hi[axis]) continue;
+    entry.plane_axis = axis;
+    entry.plane_at = lo[axis];
+  }
+  entry.id = block.id[lane];
+  return entry;
 }
 
 }  // namespace
 
-std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree) {
+std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree, double most_growth) {
   if (tree.blocks.empty() || tree.blocks.size() > FewTriangles::kMost || !tree.others.empty() ||
       !tree.instances.empty())
     return nullptr;
   auto result = std::make_unique<FewTriangles>();
+  std::span<Facet> facets;
   for (std::size_t slot = 0; slot < tree.blocks.size() * kWidth; ++slot) {
     const TriangleBlock& block = tree.blocks[slot / kWidth];
     const std::size_t k = slot % kWidth;
     if (std::isnan(block.a[0][k])) continue;
     const auto known = std::span(result->entries).first(static_cast<std::size_t>(result->count));
     // Large triangles can be in several leaves.
-    if (std::ranges::find(known, block.id[k], &FewTriangles::Entry::id) != known.end()) continue;
+    if (std::ranges::find(known, block.id[k], &Entry::id) != known.end()) continue;
     if (result->count == FewTriangles::kMost) return nullptr;
-    FewTriangles::Entry& entry = result->entries[result->count++];
-    const Vec3 a(block.a[0][k], block.a[1][k], block.a[2][k]);
-    const Vec3 b(block.b[0][k], block.b[1][k], block.b[2][k]);
-    const Vec3 c(block.c[0][k], block.c[1][k], block.c[2][k]);
-    const Vec3 e1 = b - a, e2 = c - a;
-    put(entry.vertices[0], a);
-    put(entry.vertices[1], b);
-    put(entry.vertices[2], c);
-    put(entry.e1, e1);
-    put(entry.e2, e2);
-    put(entry.n, glm::cross(e1, e2));
-    const Vec3 lo = glm::min(a, glm::min(b, c)), hi = glm::max(a, glm::max(b, c));
-    put(entry.lo, lo);
-    put(entry.hi, hi);
-    entry.plane_axis = -1;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (lo[axis] != hi[axis]) continue;
-      entry.plane_axis = axis;
-      entry.plane_at = lo[axis];
-    }
-    entry.largest_edge = block.largest_edge;
-    entry.edge_product = block.edge_product;
-    entry.id = block.id[k];
+    const int number = result->count++;
+    Entry& entry = result->entries[number] = entry_of(block, k);
     entry.slot = static_cast<std::uint32_t>(slot);
+    const bool is_joined = std::ranges::any_of(facets, [&](Facet& facet) {
+      return facet.second < 0 &&
+             join(result->entries[facet.first], entry, number, most_growth, facet);
+    });
+    if (is_joined) continue;
+    facets = std::span(result->facets).first(facets.size() + 1);
+    facets.back() = facet_of(entry, number, block);
   }
+  std::ranges::stable_sort(facets, {}, &Facet::axis);
+  for (int axis = 0; axis <= FewTriangles::kOblique; ++axis)
+    result->ends[axis] =
+        static_cast<int>(std::ranges::upper_bound(facets, axis, {}, &Facet::axis) - facets.begin());
   return result;
 }
 

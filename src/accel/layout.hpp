@@ -37,18 +37,35 @@ static_assert(sizeof(TriangleBlock) == 384);
 struct FewTriangles {
   static constexpr int kMost = 48;
 
+  struct Box {
+    float lo[3], hi[3];
+  };
   struct Entry {
     float vertices[3][3];
-    float e1[3], e2[3];                ///< edges from the first vertex, as in the block
-    float n[3];                        ///< e1 x e2
-    float largest_edge, edge_product;  ///< as in the block
-    float lo[3], hi[3];                ///< bounds
-    int plane_axis;                    ///< of an axis-aligned plane that it lies in; -1: none
-    float plane_at;                    ///< its coordinate on this axis
-    std::uint32_t id, slot;            ///< slot: the block's index times kWidth, plus the lane
+    Box box;
+    int plane_axis;          ///< of an axis-aligned plane that it lies in; -1: none
+    float plane_at;          ///< its coordinate on this axis
+    std::uint32_t id, slot;  ///< slot: the block's index times kWidth, plus the lane
+  };
+  /// A triangle (a, a + e1, a + e2), or two triangles that form a parallelogram up to rounding, of
+  /// which this is the first: the other is (a + e1 + e2, a + e2, a + e1).
+  struct Facet {
+    float a[3], e1[3], e2[3];
+    float n[3];  ///< e1 x e2
+    /// The axis i of n if e1, e2 and n are along the axes i + 1, i + 2 and i (modulo 3), otherwise
+    /// kOblique.
+    int axis;
+    /// As in a block. For a parallelogram, edge_product is enlarged and height_slack is an
+    /// additional error of heights, because of the rounding of its fourth corner.
+    float largest_edge, edge_product, height_slack;
+    Box box;            ///< of all its triangles
+    int first, second;  ///< indices of its triangles; second is -1 if there is only one
   };
   Entry entries[kMost];
   int count;
+  static constexpr int kOblique = 3;
+  Facet facets[kMost];     ///< by ascending axis
+  int ends[kOblique + 1];  ///< ends of the ranges of facets with each axis
 };
 
 /// A tree without the scene, and the numbers of its primitives within their mesh.

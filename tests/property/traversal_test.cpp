@@ -8,6 +8,7 @@
 #include "exact/intersect.hpp"
 #include "support/cases/adversarial_scenes.hpp"
 #include "support/effort.hpp"
+#include "support/hit_by_definition.hpp"
 
 #include <microtrace/bvh.hpp>
 
@@ -31,19 +32,6 @@ constexpr float kRayInfinity = std::numeric_limits<float>::infinity();
 
 using Answers = std::vector<std::optional<Hit>>;
 
-// Returns the nearest hit by its definition, computed only with exact arithmetic.
-std::optional<Hit> hit_by_definition(const Primitives& primitives, const Ray& ray) {
-  std::optional<exact::Root> nearest;
-  std::optional<Hit> best;
-  primitives.for_each([&](PrimitiveId id, const auto& shape) {
-    const auto t = exact::first_hit(shape, ray);
-    if (!t || (nearest && *t >= *nearest)) return;
-    nearest = t;
-    best = {.id = id, .t = exact::round_to_float(*t)};
-  });
-  return best;
-}
-
 // Returns the nearest hit computed by the float64 filters, which filter_test.cpp compares with
 // exact arithmetic. Exact arithmetic decides uncertain cases.
 std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
@@ -54,15 +42,6 @@ std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   for (PrimitiveId id = 0; id < primitives.count(); ++id)
     closest.consider(id, resolver.filtered(id), exactly);
   return closest.rounded(exactly);
-}
-
-::testing::AssertionResult same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
-  if (a.has_value() == b.has_value() && (!a || (a->id == b->id && a->t == b->t)))
-    return ::testing::AssertionSuccess();
-  const auto show = [](const std::optional<Hit>& hit) {
-    return hit ? std::to_string(hit->id) + " at " + std::to_string(hit->t) : std::string("none");
-  };
-  return ::testing::AssertionFailure() << show(a) << " is not " << show(b);
 }
 
 bool is_without_area(const Primitives& primitives, PrimitiveId id) {
@@ -111,20 +90,6 @@ void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& ex
     ASSERT_EQ(occluded[i], expected[i].has_value()) << "ray " << i;
     ASSERT_TRUE(same(bvh.intersect(rays[i]), expected[i])) << "ray " << i;
     ASSERT_EQ(bvh.occluded(rays[i]), expected[i].has_value()) << "ray " << i;
-  }
-}
-
-/// Calls f with each of the machine's kernels selected. Trees that f builds use the selected
-/// kernels.
-template <class F>
-void with_each_kernel(const F& f) {
-  for (const Kernels* kernels : kRayKernels.available()) {
-    SCOPED_TRACE(kernels->name);
-    setenv("MICROTRACE_ISA", kernels->name, 1);
-    EXPECT_EQ(&kRayKernels.best(), kernels);
-    f();
-    unsetenv("MICROTRACE_ISA");
-    if (testing::Test::HasFatalFailure()) return;
   }
 }
 

@@ -1,104 +1,15 @@
 #pragma once
-/// Tests eight triangles against a ray by the signed volumes of docs/derivations.md, in float32
-/// with an error bound derived in docs/exactness.md. The result for each triangle is a certain
-/// miss, a certain hit with t in an interval, or uncertain; the fallback decides uncertain lanes.
+/// Tests eight triangles against a ray. The result for each triangle is a certain miss, a certain
+/// hit with t in an interval, or uncertain; the fallback decides uncertain lanes.
 
 #include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/inner_ray.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
+#include "accel/kernels/volume_test.hpp"
 
 namespace microtrace {
 namespace {
-
-constexpr float kUnit = 0x1p-24F;        // unit roundoff of float32
-constexpr float kTiny = 0x1p-100F;       // exceeds the total effect of underflow, 2^-107
-constexpr float kFarthestHit = 0x1p64F;  // coordinates are at most 2^38 and the largest |d_i| is at
-                                         // least 2^-20, so every hit is below 2^60
-
-template <class F>
-struct Interval {
-  F lo, hi;
-};
-
-/// Returns the interval of t = height / size, where size must exceed 16 times its error. Half of
-/// the factor 8 in the last term would suffice, because t and its ends have three roundings.
-/// Requiring only 8 times the error would suffice too: such small sizes are sums with strong
-/// cancellation, for which the errors of size and height are below 13/17 of their bounds.
-template <class F, class G, class H>
-inline Interval<F> interval(const F& height, const F& size, const G& height_error,
-                            const H& size_error) {
-  const F inverse = 1 / size, t = height * inverse, distance = t < F{} ? -t : t;
-  const F radius =
-      (height_error + distance * size_error) * inverse * 1.07F + distance * (8 * kUnit);
-  return {t - radius, t + radius};
-}
-
-template <int N>
-inline Float<N> lanes_of(float x) {
-  return all<N>(x);
-}
-template <int N>
-inline Float<N> lanes_of(const Float<N>& x) {
-  return x;
-}
-
-constexpr float kNoSlack = -0.0F;  // compilers know that x + -0 is x, but not that x + 0 is x
-
-/// Tests N triangles against one ray, or one triangle against N rays. RayPart is a vector of lanes
-/// if there are N rays, otherwise a scalar.
-template <int N, class RayPart>
-struct VolumeTest {
-  using F = Float<N>;
-  Lanes maybe;    ///< lanes that are not certain misses
-  Lanes certain;  ///< lanes of `maybe` that are certain hits
-  F height, size, height_error;
-  RayPart size_error;
-
-  /// a is the vector from the ray's origin to the first vertex, e1 and e2 are the edges from that
-  /// vertex. em is TriangleBlock::largest_edge, and m is TriangleBlock::edge_product. For slack see
-  /// InnerRay.
-  template <class TrianglePart>
-  __attribute__((always_inline))
-  VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
-             const RayPart (&d)[3], float em, float m, const RayPart& d_sum, const RayPart& t_begin,
-             const RayPart& t_limit, float slack = kNoSlack)
-      : VolumeTest(a, e1, e2,
-                   {e1[1] * e2[2] - e1[2] * e2[1], e1[2] * e2[0] - e1[0] * e2[2],
-                    e1[0] * e2[1] - e1[1] * e2[0]},
-                   d, em, m, d_sum, t_begin, t_limit, slack) {}
-
-  /// n: e1 x e2. Always inlined, like BlockTest::run.
-  template <class TrianglePart>
-  __attribute__((always_inline))
-  VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
-             const TrianglePart (&n)[3], const RayPart (&d)[3], float em, float m,
-             const RayPart& d_sum, const RayPart& t_begin, const RayPart& t_limit,
-             float slack = kNoSlack) {
-    const F rx = a[1] * d[2] - a[2] * d[1], ry = a[2] * d[0] - a[0] * d[2],
-            rz = a[0] * d[1] - a[1] * d[0];
-    const F signed_size = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
-    size = magnitude(signed_size);
-    // u, v and height are multiplied by the sign of signed_size.
-    const F u = with_sign_of<N>(rx * e2[0] + ry * e2[1] + rz * e2[2], signed_size);
-    const F v = -with_sign_of<N>(rx * e1[0] + ry * e1[1] + rz * e1[2], signed_size);
-    height = with_sign_of<N>(n[0] * a[0] + n[1] * a[1] + n[2] * a[2], signed_size);
-
-    const F a_sum = magnitude(a[0]) + magnitude(a[1]) + magnitude(a[2]) + slack;
-    const F edge_error = (a_sum * em + m) * (15.01F * kUnit * d_sum) + kTiny;
-    height_error = a_sum * (17.01F * kUnit * m) + kTiny;
-    size_error = 15.01F * kUnit * d_sum * m + kTiny;
-    // Positive if the ray passes inside all three edges, negative outside.
-    const F within = lesser(lesser(u, v), size - (u + v));
-    maybe = less_equal<N>(-edge_error, within);
-    maybe &= less_equal<N>(height - size * t_limit, height_error + size_error * t_limit);
-    // If signed_size may have the wrong sign, height may too, so the triangle is not certainly
-    // behind the ray.
-    maybe &= less_equal<N>(size * t_begin - height, height_error + size_error * t_begin) |
-             less_equal<N>(size, lanes_of<N>(size_error));
-    certain = maybe & less<N>(edge_error, within) & less<N>(lanes_of<N>(16 * size_error), size);
-  }
-};
 
 /// Tests eight triangles against a ray.
 template <int N>

@@ -1,5 +1,5 @@
 #pragma once
-/// Decides most edge tests that float32 can't decide. Evaluates the forms of block_test.hpp in
+/// Decides most edge tests that float32 can't decide. Evaluates the forms of volume_test.hpp in
 /// float64 for one triangle and one ray, with the same error bound but the unit roundoff of
 /// float64.
 

@@ -126,15 +126,21 @@ class FewTrianglesSearch {
       for (int axis = 0; axis < 3; ++axis)
         lo[axis] = load<N>(lo_[axis] + first), hi[axis] = load<N>(hi_[axis] + first);
       const CenteredBox<F> boxes(lo, hi);
-      for (int k = 0; k < tree_.few->count; ++k) {
-        const FewTriangles::Entry& triangle = tree_.few->entries[k];
-        // The differences have the signs of exact ones.
-        F gap = greater(F(triangle.lo[0] - hi[0]), F(lo[0] - triangle.hi[0]));
-        for (int axis = 1; axis < 3; ++axis)
-          gap = greater(greater(F(triangle.lo[axis] - hi[axis]), F(lo[axis] - triangle.hi[axis])),
-                        gap);
-        const Lanes near = all_queries & less_equal<N>(gap, F{});
-        if (near != 0) meet(triangle, first, near, boxes);
+      for (int k = 0; k < tree_.few->ends[FewTriangles::kOblique]; ++k) {
+        const FewTriangles::Facet& facet = tree_.few->facets[k];
+        const Lanes near = all_queries & overlapping(facet.box, lo, hi);
+        if (near == 0) continue;
+        for (const int number : {facet.first, facet.second}) {
+          if (number < 0) break;
+          const FewTriangles::Entry& triangle = tree_.few->entries[number];
+          Lanes lanes = without_omitted(triangle, first, near);
+          if (lanes != 0 && facet.second >= 0) lanes &= overlapping(triangle.box, lo, hi);
+          if (lanes != 0) lanes = without_clear<N>(lanes, triangle.vertices, boxes);
+          for (; lanes != 0; lanes &= lanes - 1) {
+            BoxQuery& query = queries_[first + first_lane(lanes)];
+            if (query.count >= 0) adds_too_many(query, triangle.slot);
+          }
+        }
       }
     }
   }
@@ -142,22 +148,24 @@ class FewTrianglesSearch {
  private:
   using F = Float<N>;
 
-  /// Adds the triangle to the queries in these lanes, whose boxes overlap its own.
-  void meet(const FewTriangles::Entry& triangle, int first, Lanes lanes,
-            const CenteredBox<F>& boxes) {
+  [[nodiscard]] static Lanes overlapping(const FewTriangles::Box& box, const F (&lo)[3],
+                                         const F (&hi)[3]) {
+    // The differences have the signs of exact ones.
+    F gap = greater(F(box.lo[0] - hi[0]), F(lo[0] - box.hi[0]));
+    for (int axis = 1; axis < 3; ++axis)
+      gap = greater(greater(F(box.lo[axis] - hi[axis]), F(lo[axis] - box.hi[axis])), gap);
+    return less_equal<N>(gap, F{});
+  }
+
+  /// Returns those of `lanes` whose queries don't omit the triangle.
+  [[nodiscard]] Lanes without_omitted(const FewTriangles::Entry& triangle, int first,
+                                      Lanes lanes) const {
     lanes &= ~equal_to<N>(omitted_id_ + first, triangle.id);
-    if (triangle.plane_axis >= 0) {
-      const F at = load<N>(plane_at_ + first), own = all<N>(triangle.plane_at);
-      const auto axis = static_cast<std::uint32_t>(triangle.plane_axis);
-      lanes &= ~(equal_to<N>(plane_axis_ + first, axis) & less_equal<N>(at, own) &
-                 less_equal<N>(own, at));
-    }
-    if (lanes == 0) return;
-    lanes = without_clear<N>(lanes, triangle.vertices, boxes);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      BoxQuery& query = queries_[first + first_lane(lanes)];
-      if (query.count >= 0) adds_too_many(query, triangle.slot);
-    }
+    if (triangle.plane_axis < 0) return lanes;
+    const F at = load<N>(plane_at_ + first), own = all<N>(triangle.plane_at);
+    const auto axis = static_cast<std::uint32_t>(triangle.plane_axis);
+    return lanes & ~(equal_to<N>(plane_axis_ + first, axis) & less_equal<N>(at, own) &
+                     less_equal<N>(own, at));
   }
 
   const TreeView& tree_;
