@@ -218,15 +218,16 @@ TEST_P(Instances, BoxesOfOnePointFindTheTrianglesOfVertices) {
       const auto triangle = bvh.primitives().triangle(id);
       if (!std::isfinite(triangle->a.x + triangle->a.y + triangle->a.z)) continue;
       for (const Kernels* kernels : kRayKernels.available()) {
-        BoxQuery query{};
-        for (int k = 0; k < 3; ++k) query.lo[k] = query.hi[k] = triangle->a[k];
-        query.omitted_id = kNoPrimitive;
-        query.plane_axis = -1;
-        kernels->touching(view, &query, 1);
+        BoxQueries query{};
+        query.size = 1;
+        for (int k = 0; k < 3; ++k) query.lo[k][0] = query.hi[k][0] = triangle->a[k];
+        query.omitted_id[0] = kNoPrimitive;
+        query.plane_axis[0] = -1;
+        kernels->touching(view, query);
         const auto is_found = [&] {
-          for (int k = 0; k < query.count; ++k)
-            if (query.slots[k] == kIdSlot && query.ids[k] == id) return true;
-          return query.count < 0;  // too many
+          for (int k = 0; k < query.count[0]; ++k)
+            if (query.slots[0][k] == kIdSlot && query.ids[0][k] == id) return true;
+          return query.count[0] < 0;  // too many
         };
         ASSERT_TRUE(is_found()) << kernels->name << ", triangle " << id;
         ++found;

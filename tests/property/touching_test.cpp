@@ -32,6 +32,13 @@ void append_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
+/// The triangles that a query omits.
+struct Omitted {
+  PrimitiveId id = kNoPrimitive;
+  int plane_axis = -1;
+  float plane_at = 0;
+};
+
 /// A mesh whose triangles are all in blocks.
 class Places {
  public:
@@ -43,8 +50,13 @@ class Places {
 
   /// Returns the triangles that the query finds. Nothing if they are too many.
   std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi,
-                                            BoxQuery query = {}) const {
-    for (int k = 0; k < 3; ++k) query.lo[k] = lo[k], query.hi[k] = hi[k];
+                                            const Omitted& omitted = {}) const {
+    BoxQueries query{};
+    query.size = 1;
+    for (int k = 0; k < 3; ++k) query.lo[k][0] = lo[k], query.hi[k][0] = hi[k];
+    query.omitted_id[0] = omitted.id;
+    query.plane_axis[0] = static_cast<float>(omitted.plane_axis);
+    query.plane_at[0] = omitted.plane_at;
     const auto found = search(query, nullptr);
     // Without traversal, the same triangles are found.
     if (few_) {
@@ -54,17 +66,19 @@ class Places {
   }
 
  private:
-  std::optional<std::set<PrimitiveId>> search(BoxQuery query, const FewTriangles* few) const {
+  std::optional<std::set<PrimitiveId>> search(BoxQueries query, const FewTriangles* few) const {
     kernels_.touching({.nodes = tree_.nodes.data(),
                        .blocks = tree_.blocks.data(),
                        .others = tree_.others.data(),
                        .root = tree_.root,
                        .few = few},
-                      &query, 1);
-    if (query.count < 0) return std::nullopt;
+                      query);
+    if (query.count[0] < 0) return std::nullopt;
     std::set<PrimitiveId> found;
-    for (int i = 0; i < query.count; ++i)
-      found.insert(tree_.blocks[query.slots[i] / kWidth].id[query.slots[i] % kWidth]);
+    for (int i = 0; i < query.count[0]; ++i) {
+      const std::uint32_t slot = query.slots[0][i];
+      found.insert(tree_.blocks[slot / kWidth].id[slot % kWidth]);
+    }
     return found;
   }
 
@@ -148,11 +162,9 @@ TEST_P(Touching, OmitsOneTriangleAndAPlane) {
       const auto width = static_cast<float>(1 + i);  // the tree has one of equal triangles
       append_triangle(mesh, at(along, -1, -1), at(along, width, -1), at(tip, 0, 9));
     }
-    BoxQuery query;
-    query.omitted_id = 8;
-    query.plane_axis = axis;
-    query.plane_at = 0;
-    const auto found = Places(mesh, *GetParam()).near(at(0, -0.25F, -1), at(3, 0.25F, -1), query);
+    const auto found = Places(mesh, *GetParam())
+                           .near(at(0, -0.25F, -1), at(3, 0.25F, -1),
+                                 {.id = 8, .plane_axis = axis, .plane_at = 0});
     ASSERT_TRUE(found);
     for (PrimitiveId id = 0; id < 40; ++id)
       EXPECT_EQ(found->contains(id), id % 4 < 2 && id != 8) << axis << " " << id;

@@ -8,14 +8,34 @@
 namespace microtrace {
 namespace {
 
+struct ClosedBox {
+  float lo[3], hi[3];
+};
+
+/// One of BoxQueries.
+struct BoxQuery {
+  ClosedBox box;
+  std::uint32_t omitted_id;
+  int plane_axis;
+  float plane_at;
+};
+
+inline BoxQuery query_of(const BoxQueries& all, int i) {
+  return {.box = {{all.lo[0][i], all.lo[1][i], all.lo[2][i]},
+                  {all.hi[0][i], all.hi[1][i], all.hi[2][i]}},
+          .omitted_id = all.omitted_id[i],
+          .plane_axis = static_cast<int>(all.plane_axis[i]),
+          .plane_at = all.plane_at[i]};
+}
+
 /// Returns the lanes in which [lo, hi] overlaps the box along an axis.
 template <int N>
-inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const BoxQuery& box, int axis) {
+inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const ClosedBox& box, int axis) {
   return less_equal<N>(lo, all<N>(box.hi[axis])) & less_equal<N>(all<N>(box.lo[axis]), hi);
 }
 
 template <int N>
-inline Lanes touched_children(const WideNode& node, const BoxQuery& box) {
+inline Lanes touched_children(const WideNode& node, const ClosedBox& box) {
   Lanes lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     lanes |= (overlapping<N>(load<N>(node.lo_x + i), load<N>(node.hi_x + i), box, 0) &
@@ -29,7 +49,7 @@ inline Lanes touched_children(const WideNode& node, const BoxQuery& box) {
 /// Returns the triangles whose bounding boxes overlap the box. Unused slots are NaN and overlap
 /// nothing.
 template <int N>
-inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) {
+inline Lanes touched_triangles(const TriangleBlock& block, const ClosedBox& box) {
   Lanes lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     Lanes touched = kAllLanes<N>;
@@ -123,14 +143,16 @@ struct BlockVertices {
   }
 };
 
-/// Adds a slot to the results unless there are too many; returns whether there are.
-inline bool adds_too_many(BoxQuery& query, std::uint32_t slot, std::uint32_t id = kNoPrimitive) {
-  if (query.count == BoxQuery::kMost) query.count = -1;
-  if (query.count >= 0) {
-    query.ids[query.count] = id;
-    query.slots[query.count++] = slot;
+/// Adds a slot to the results of query i unless there are too many; returns whether there are.
+inline bool adds_too_many(BoxQueries& queries, int i, std::uint32_t slot,
+                          std::uint32_t id = kNoPrimitive) {
+  int& count = queries.count[i];
+  if (count == BoxQueries::kMost) count = -1;
+  if (count >= 0) {
+    queries.ids[i][count] = id;
+    queries.slots[i][count++] = slot;
   }
-  return query.count < 0;
+  return count < 0;
 }
 
 }  // namespace

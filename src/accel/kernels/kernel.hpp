@@ -160,22 +160,25 @@ struct alignas(64) HitBatch {
   float t[kHitBatch];        ///< resulting parameters
 };
 
-/// A query for the primitives that touch a small closed box, and the results. The query omits the
-/// triangle omitted_id, and all triangles in one axis-aligned plane.
-struct BoxQuery {
-  static constexpr int kMost = 32;
-
-  float lo[3], hi[3];
-  std::uint32_t omitted_id = kNoPrimitive;
-  int plane_axis = -1;         ///< axis perpendicular to the plane; -1: no plane
-  float plane_at = 0;          ///< the plane's coordinate on plane_axis
-  int count;                   ///< number of results; -1: more than kMost
-  std::uint32_t slots[kMost];  ///< triangles; or kOtherSlot + index into TreeView::others; or
-                               ///< kIdSlot
-  std::uint32_t ids[kMost];    ///< primitives of instances, where the slot is kIdSlot
-};
 inline constexpr std::uint32_t kOtherSlot = 1U << 31U, kIdSlot = ~0U;
 inline constexpr int kBoxQueries = 16;
+
+/// Queries for the primitives that touch small closed boxes, and the results. A query omits a
+/// triangle, and all triangles in an axis-aligned plane.
+struct alignas(64) BoxQueries {
+  static constexpr int kMost = 32;
+
+  int size;  ///< number of queries
+  float lo[3][kBoxQueries], hi[3][kBoxQueries];
+  std::uint32_t omitted_id[kBoxQueries];
+  float plane_axis[kBoxQueries];  ///< axis perpendicular to the plane; -1: no plane
+  float plane_at[kBoxQueries];    ///< the plane's coordinate on plane_axis
+  // ---- set by the kernel:
+  int count[kBoxQueries];                   ///< number of results; -1: more than kMost
+  std::uint32_t slots[kBoxQueries][kMost];  ///< triangles; or kOtherSlot + index into
+                                            ///< TreeView::others; or kIdSlot
+  std::uint32_t ids[kBoxQueries][kMost];    ///< primitives of instances, where the slot is kIdSlot
+};
 
 /// Bounds of the exact t of the rays of a packet at hits of shapes that float64 filters have found.
 struct alignas(64) ShapeBounds {
@@ -226,9 +229,8 @@ struct Kernels {
   std::uint64_t (*round_t_of_packet)(const TreeView& tree, const KernelPacket& packet, float* t);
   /// Finds all primitives with a point in each query's box. May return a primitive twice. May also
   /// return triangles of which only the bounding boxes overlap the query's box, and all
-  /// non-triangle primitives of a leaf that touches the box. Processes up to kBoxQueries queries at
-  /// a time, so that their memory accesses overlap.
-  void (*touching)(const TreeView& tree, BoxQuery* queries, int count);
+  /// non-triangle primitives of a leaf that touches the box.
+  void (*touching)(const TreeView& tree, BoxQueries& queries);
   /// Returns the number of triangle edge tests in float64 by this thread.
   std::uint64_t (*edge_tests)();
 };

@@ -12,7 +12,7 @@ namespace {
 
 /// Sets `inner` to a box in the space of an instance's mesh that contains every point whose image,
 /// rounded, may touch the query's box. The margins are those of InnerRay for an origin in the box.
-inline void enter(const Instance& instance, const BoxQuery& query, BoxQuery& inner) {
+inline void enter(const Instance& instance, const ClosedBox& query, ClosedBox& inner) {
   float c[3], half[3], distance = 0;
   for (int j = 0; j < 3; ++j) {
     const double t = instance.scene_from_mesh[9 + j];
@@ -39,18 +39,20 @@ inline void enter(const Instance& instance, const BoxQuery& query, BoxQuery& inn
 struct BoxSearch {
   int size;
   Scope scope;
-  BoxQuery inner;  ///< the box in the space of the instance's mesh, in the scope of an instance
+  BoxQuery query;
+  ClosedBox inner;  ///< the box in the space of the instance's mesh, in the scope of an instance
   ChildRef stack[kStackSize + kWidth];
 };
 
-/// Visits the next node or leaf of a query.
+/// Visits the next node or leaf of query i.
 template <int N>
-inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
+inline void step(const TreeView& tree, BoxSearch& search, BoxQueries& queries, int i) {
+  const BoxQuery& query = search.query;
   const ChildRef next = search.stack[--search.size];
   const Scope& scope = search.scope;
   if ((next & child_ref::kKind) == 0) {
     const WideNode& node = scope.nodes[next];
-    const Lanes lanes = touched_children<N>(node, scope.choose(query, search.inner));
+    const Lanes lanes = touched_children<N>(node, scope.choose(query.box, search.inner));
     store_lanes(lanes, node.child, search.stack + search.size);
     search.size += __builtin_popcount(lanes);
     return;
@@ -62,7 +64,7 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   if (is_instance(next)) {
     const Instance& instance = tree.instances[next - child_ref::kFirstInstance];
     search.scope = Scope(instance);
-    enter(instance, query, search.inner);
+    enter(instance, query.box, search.inner);
     search.stack[search.size++] = kInstanceEnd;
     search.stack[search.size++] = instance.mesh->root;
     return;
@@ -70,23 +72,23 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
   const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
   bool overflows = false;
-  for (std::uint32_t i = first; i < end && !overflows; ++i) {
+  for (std::uint32_t entry = first; entry < end && !overflows; ++entry) {
     if (!are_triangles) {
       overflows = scope.instance == nullptr
-                      ? adds_too_many(query, kOtherSlot + i)
-                      : adds_too_many(query, kIdSlot, scope.first_id() + scope.others[i]);
+                      ? adds_too_many(queries, i, kOtherSlot + entry)
+                      : adds_too_many(queries, i, kIdSlot, scope.first_id() + scope.others[entry]);
       continue;
     }
     TriangleBlock placed;
     if (scope.instance != nullptr) {
-      if (touched_triangles<N>(scope.blocks[i], search.inner) == 0) continue;
-      tree.scene_block(*scope.instance, scope.blocks[i], placed);
+      if (touched_triangles<N>(scope.blocks[entry], search.inner) == 0) continue;
+      tree.scene_block(*scope.instance, scope.blocks[entry], placed);
     }
-    const TriangleBlock& block = scope.choose(scope.blocks[i], placed);
-    Lanes lanes = touched_triangles<N>(block, query);
+    const TriangleBlock& block = scope.choose(scope.blocks[entry], placed);
+    Lanes lanes = touched_triangles<N>(block, query.box);
     if (lanes != 0) lanes &= ~omitted_triangles<N>(block, query);
     if (lanes != 0) {  // often false on axis-aligned walls
-      const CenteredBox<float> box(query.lo, query.hi);
+      const CenteredBox<float> box(query.box.lo, query.box.hi);
       for (int k = 0; k < kWidth; k += N) {
         const Lanes these = lanes & kAllLanes<N> << k;
         lanes &= ~these;
@@ -95,8 +97,8 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
     }
     for (; lanes != 0 && !overflows; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(first_lane(lanes));
-      overflows = scope.instance == nullptr ? adds_too_many(query, i * kWidth + lane)
-                                            : adds_too_many(query, kIdSlot, block.id[lane]);
+      overflows = scope.instance == nullptr ? adds_too_many(queries, i, entry * kWidth + lane)
+                                            : adds_too_many(queries, i, kIdSlot, block.id[lane]);
     }
   }
   if (overflows) search.size = 0;
@@ -106,25 +108,16 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
 template <int N>
 class FewTrianglesSearch {
  public:
-  FewTrianglesSearch(const TreeView& tree, BoxQuery* queries, int count)
-      : tree_(tree), queries_(queries), count_(count) {
-    for (int i = 0; i < kBoxQueries; ++i) {
-      const BoxQuery& query = queries[i < count ? i : 0];
-      for (int k = 0; k < 3; ++k) lo_[k][i] = query.lo[k], hi_[k][i] = query.hi[k];
-      plane_at_[i] = query.plane_at;
-      plane_axis_[i] = static_cast<std::uint32_t>(query.plane_axis);
-      omitted_id_[i] = query.omitted_id;
-    }
-  }
+  FewTrianglesSearch(const TreeView& tree, BoxQueries& queries) : tree_(tree), queries_(queries) {}
 
   void run() {
-    for (int i = 0; i < count_; ++i) queries_[i].count = 0;
-    for (int first = 0; first < count_; first += N) {
-      const int rest = count_ - first;
+    for (int first = 0; first < queries_.size; first += N) {
+      const int rest = queries_.size - first;
       const Lanes all_queries = rest < N ? (Lanes{1} << rest) - 1 : kAllLanes<N>;
       F lo[3], hi[3];
       for (int axis = 0; axis < 3; ++axis)
-        lo[axis] = load<N>(lo_[axis] + first), hi[axis] = load<N>(hi_[axis] + first);
+        lo[axis] = load<N>(queries_.lo[axis] + first),
+        hi[axis] = load<N>(queries_.hi[axis] + first);
       const CenteredBox<F> boxes(lo, hi);
       for (int k = 0; k < tree_.few->ends[FewTriangles::kOblique]; ++k) {
         const FewTriangles::Facet& facet = tree_.few->facets[k];
@@ -137,8 +130,8 @@ class FewTrianglesSearch {
           if (lanes != 0 && facet.second >= 0) lanes &= overlapping(triangle.box, lo, hi);
           if (lanes != 0) lanes = without_clear<N>(lanes, triangle.vertices, boxes);
           for (; lanes != 0; lanes &= lanes - 1) {
-            BoxQuery& query = queries_[first + first_lane(lanes)];
-            if (query.count >= 0) adds_too_many(query, triangle.slot);
+            const int i = first + first_lane(lanes);
+            if (queries_.count[i] >= 0) adds_too_many(queries_, i, triangle.slot);
           }
         }
       }
@@ -160,41 +153,40 @@ class FewTrianglesSearch {
   /// Returns those of `lanes` whose queries don't omit the triangle.
   [[nodiscard]] Lanes without_omitted(const FewTriangles::Entry& triangle, int first,
                                       Lanes lanes) const {
-    lanes &= ~equal_to<N>(omitted_id_ + first, triangle.id);
+    lanes &= ~equal_to<N>(queries_.omitted_id + first, triangle.id);
     if (triangle.plane_axis < 0) return lanes;
-    const F at = load<N>(plane_at_ + first), own = all<N>(triangle.plane_at);
-    const auto axis = static_cast<std::uint32_t>(triangle.plane_axis);
-    return lanes & ~(equal_to<N>(plane_axis_ + first, axis) & less_equal<N>(at, own) &
-                     less_equal<N>(own, at));
+    const F at = load<N>(queries_.plane_at + first), own = all<N>(triangle.plane_at);
+    const F axes = load<N>(queries_.plane_axis + first);
+    const F axis = all<N>(static_cast<float>(triangle.plane_axis));
+    return lanes & ~(less_equal<N>(axes, axis) & less_equal<N>(axis, axes) &
+                     less_equal<N>(at, own) & less_equal<N>(own, at));
   }
 
   const TreeView& tree_;
-  BoxQuery* queries_;
-  int count_;
-  alignas(64) float lo_[3][kBoxQueries], hi_[3][kBoxQueries], plane_at_[kBoxQueries];
-  alignas(64) std::uint32_t omitted_id_[kBoxQueries], plane_axis_[kBoxQueries];
+  BoxQueries& queries_;
 };
 
 /// See Kernels::touching. M: number of boxes that are tested against one triangle at a time.
 template <int N, int M>
-void touching(const TreeView& tree, BoxQuery* queries, int count) {
-  if (has_few_triangles<M>(tree)) return FewTrianglesSearch<M>(tree, queries, count).run();
+void touching(const TreeView& tree, BoxQueries& queries) {
+  for (int& count : queries.count) count = 0;
+  if (has_few_triangles<M>(tree)) return FewTrianglesSearch<M>(tree, queries).run();
   BoxSearch searches[kBoxQueries];
   int going[kBoxQueries], left = 0;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < queries.size; ++i) {
     searches[i].size = 1;
     searches[i].scope = Scope(tree);
+    searches[i].query = query_of(queries, i);
     searches[i].stack[0] = tree.root;
-    queries[i].count = 0;
     going[left] = i;
-    left += queries[i].lo[0] <= queries[i].hi[0] ? 1 : 0;  // skips empty boxes
+    left += queries.lo[0][i] <= queries.hi[0][i] ? 1 : 0;  // skips empty boxes
   }
-  count = left;
+  int count = left;
   while (count > 0) {
     left = 0;
     for (int k = 0; k < count; ++k) {
       const int i = going[k];
-      step<N>(tree, searches[i], queries[i]);
+      step<N>(tree, searches[i], queries, i);
       going[left] = i;
       left += searches[i].size > 0 ? 1 : 0;
     }

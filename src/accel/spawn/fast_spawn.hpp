@@ -99,21 +99,23 @@ class FastSpawns {
   [[nodiscard]] Lanes leave(Lanes wanted, OriginLanes& lanes) const;
 
  private:
-  /// A surface that rays leave, and its hit point.
-  struct LeftSurface {
-    PrimitiveId id;
-    bool is_triangle;                ///< true if points_ holds the triangle, in the lane with the
-                                     ///< index of the hit
-    bool is_known;                   ///< true if float64 can determine the hit point
-    std::optional<FastSpawn> other;  ///< set for non-triangle surfaces
-  };
-
   void add(PrimitiveId id, const Ray& ray);
   void put(const Triangle& triangle, const Ray& ray, std::size_t lane);
   void find_points();
+  /// Sets the queries of hits on triangles, whose points the kernel has found.
+  void set_queries();
+  /// Sets the query of a hit on another surface.
   void set_query(std::size_t hit);
-  /// True if certainly no other surface is between the exact hit point and the origins.
+  /// The hit point, and the reach of FastSpawn or HitPointLanes.
+  struct Place {
+    DVec3 p, reach;
+  };
+  [[nodiscard]] Place place(std::size_t hit) const;
+  /// Returns true if no primitive that the query has found, and none outside of the tree, is
+  /// between the exact hit point and the origins.
   [[nodiscard]] bool is_alone(std::size_t hit) const;
+  /// Returns the hits with results of their queries.
+  [[nodiscard]] Lanes crowded() const;
 
   const Primitives& primitives_;
   std::span<const PrimitiveId> outside_;
@@ -121,10 +123,12 @@ class FastSpawns {
   const SpawnKernels& spawn_kernels_;
   const std::optional<TreeView> tree_;
   std::size_t hits_ = 0;
-  Lanes triangles_ = 0, alone_ = 0;  // of the surfaces
-  std::array<LeftSurface, kHits> surfaces_;
-  std::array<std::size_t, kHits + 1> first_spawn_;  // index of each hit's first spawn
-  std::array<BoxQuery, kHits> queries_;
+  Lanes triangles_ = 0;  // hits on triangles, which are in points_
+  Lanes known_ = 0;      // hits whose points float64 can determine
+  Lanes alone_ = 0;      // hits near which certainly no other surface obstructs rays
+  std::array<std::optional<FastSpawn>, kHits> others_;  // hits on other surfaces
+  std::array<std::size_t, kHits + 1> first_spawn_;      // index of each hit's first spawn
+  BoxQueries queries_;  // omitted_id: the primitives that the rays leave
   HitPointLanes* points_ = nullptr;
   HitPointLanes own_points_{};
   OriginLanes origins_{};

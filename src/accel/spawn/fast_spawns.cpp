@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -28,21 +29,6 @@ DVec3 vector_of(const double (&lanes)[3][kSpawnLanes], std::size_t lane) {
   return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
 }
 
-/// Sets the query to a box that contains p +- reach. The margin of another `reach` exceeds the
-/// rounding errors.
-void set_box(const Vec3& p, const DVec3& reach, BoxQuery& query) {
-  for (int k = 0; k < 3; ++k) {
-    query.lo[k] = static_cast<float>(p[k] - 2 * reach[k]);
-    query.hi[k] = static_cast<float>(p[k] + 2 * reach[k]);
-  }
-}
-
-/// Sets the query to an empty box, which finds nothing.
-void set_empty(BoxQuery& query) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  for (int k = 0; k < 3; ++k) query.lo[k] = kInfinity, query.hi[k] = -kInfinity;
-}
-
 }  // namespace
 
 Ray ray_of(const HitPointLanes& lanes, std::size_t lane) {
@@ -63,100 +49,122 @@ void FastSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
 }
 
 void FastSpawns::add(PrimitiveId id, const Ray& ray) {
-  LeftSurface& surface = surfaces_[hits_];
-  surface.id = id;
-  surface.is_triangle = false;
-  surface.other.reset();
+  queries_.omitted_id[hits_] = id;
+  std::optional<FastSpawn>& other = others_[hits_];
+  other.reset();
   if (id < primitives_.count()) {
     primitives_.visit(id, [&]<class AnyShape>(const AnyShape& shape) {
-      surface.is_triangle = std::is_same_v<AnyShape, Triangle>;
       if constexpr (std::is_same_v<AnyShape, Triangle>) {
         put(shape, ray, hits_);  // the kernel reports invalid rays as uncertain
+        triangles_ |= Lanes{1} << hits_;
       } else if (exact::is_valid(ray)) {
-        surface.other.emplace(shape, ray);
+        other.emplace(shape, ray);
       }
     });
   }
-  if (surface.is_triangle) triangles_ |= Lanes{1} << hits_;
   ++hits_;
 }
 
+void FastSpawns::set_queries() {
+  for (int k = 0; k < 3; ++k) {
+    std::memcpy(queries_.lo[k], points_->lo[k], sizeof(SpawnFloats));
+    std::memcpy(queries_.hi[k], points_->hi[k], sizeof(SpawnFloats));
+  }
+  std::memcpy(queries_.plane_axis, points_->plane_axis, sizeof(SpawnFloats));
+  std::memcpy(queries_.plane_at, points_->plane_at, sizeof(SpawnFloats));
+  for (std::size_t hit = 0; hit < kHits; ++hit)
+    known_ |= Lanes{points_->is_sure[hit] != 0 ? 1U : 0U} << hit;
+  known_ &= triangles_;
+}
+
 void FastSpawns::set_query(std::size_t hit) {
-  LeftSurface& surface = surfaces_[hit];
-  BoxQuery& query = queries_[hit];
-  query.count = 0;
-  query.omitted_id = surface.id;
-  if (surface.is_triangle) {
-    surface.is_known = points_->is_sure[hit] != 0;
-    for (int k = 0; k < 3; ++k) {
-      query.lo[k] = points_->lo[k][hit];
-      query.hi[k] = points_->hi[k][hit];
-    }
-    query.plane_axis = static_cast<int>(points_->plane_axis[hit]);
-    if (query.plane_axis >= 0) query.plane_at = points_->a[query.plane_axis][hit];
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const std::optional<FastSpawn>& surface = others_[hit];
+  queries_.plane_axis[hit] = -1;
+  if (!surface || !surface->point()) {  // an empty box, which finds nothing
+    for (int k = 0; k < 3; ++k) queries_.lo[k][hit] = kInfinity, queries_.hi[k][hit] = -kInfinity;
     return;
   }
-  surface.is_known = surface.other && surface.other->point();
-  query.plane_axis = -1;
-  if (!surface.is_known) return set_empty(query);
-  set_box(*surface.other->point(), surface.other->reach(), query);
-  if (const std::optional<AxisPlane> plane = surface.other->axis_plane()) {
-    query.plane_axis = plane->axis;
-    query.plane_at = plane->at;
+  known_ |= Lanes{1} << hit;
+  for (int k = 0; k < 3; ++k) {
+    // The margin of another `reach` exceeds the rounding errors.
+    const double p = (*surface->point())[k], margin = 2 * surface->reach()[k];
+    queries_.lo[k][hit] = static_cast<float>(p - margin);
+    queries_.hi[k][hit] = static_cast<float>(p + margin);
   }
+  if (const std::optional<AxisPlane> plane = surface->axis_plane()) {
+    queries_.plane_axis[hit] = static_cast<float>(plane->axis);
+    queries_.plane_at[hit] = plane->at;
+  }
+}
+
+FastSpawns::Place FastSpawns::place(std::size_t hit) const {
+  if ((triangles_ >> hit & 1U) != 0)
+    return {.p = DVec3(vector_of(points_->p, hit)), .reach = vector_of(points_->reach, hit)};
+  return {.p = DVec3(*others_[hit]->point()), .reach = others_[hit]->reach()};
 }
 
 bool FastSpawns::is_alone(std::size_t hit) const {
-  const LeftSurface& surface = surfaces_[hit];
-  const BoxQuery& found = queries_[hit];
-  if (!surface.is_known || found.count < 0) return false;
-  if (found.count == 0 && outside_.empty()) return true;
-  const bool is_triangle = surface.is_triangle;
-  const DVec3 p(is_triangle ? vector_of(points_->p, hit) : *surface.other->point());
-  const DVec3 reach = is_triangle ? vector_of(points_->reach, hit) : surface.other->reach();
+  const int count = queries_.count[hit];
+  if (count < 0) return false;
+  const Place at = place(hit);
   // Surfaces in the same plane as the surface that the ray leaves don't obstruct the ray. The query
   // already omits such triangles.
   const auto is_in_plane = [&](const auto& shape) {
-    return found.plane_axis >= 0 &&
-           lies_in(AxisPlane{.axis = found.plane_axis, .at = found.plane_at}, shape);
+    const int axis = static_cast<int>(queries_.plane_axis[hit]);
+    return axis >= 0 && lies_in(AxisPlane{.axis = axis, .at = queries_.plane_at[hit]}, shape);
   };
   const auto is_primitive_passed = [&](PrimitiveId id) {
-    return id == surface.id || primitives_.visit(id, [&](const auto& shape) {
-      return is_filterable(shape) && (is_in_plane(shape) || clears_box(shape, p, reach));
+    return id == queries_.omitted_id[hit] || primitives_.visit(id, [&](const auto& shape) {
+      return is_filterable(shape) && (is_in_plane(shape) || clears_box(shape, at.p, at.reach));
     });
   };
+  const std::uint32_t* const slots = queries_.slots[hit];
   const auto is_passed = [&](const std::uint32_t& slot) {
-    if (slot == kIdSlot) return is_primitive_passed(found.ids[&slot - found.slots]);
+    if (slot == kIdSlot) return is_primitive_passed(queries_.ids[hit][&slot - slots]);
     if (slot >= kOtherSlot) return is_primitive_passed(tree_->others[slot - kOtherSlot]);
-    return clears_box(triangle_at(*tree_, slot), p, reach);
+    return clears_box(triangle_at(*tree_, slot), at.p, at.reach);
   };
-  return std::all_of(found.slots, found.slots + found.count, is_passed) &&
+  return std::all_of(slots, slots + count, is_passed) &&
          std::all_of(outside_.begin(), outside_.end(), is_primitive_passed);
 }
 
+Lanes FastSpawns::crowded() const {
+  Lanes lanes = 0;
+  for (std::size_t hit = 0; hit < kHits; ++hit)
+    lanes |= Lanes{queries_.count[hit] != 0 ? 1U : 0U} << hit;
+  return lanes;
+}
+
 void FastSpawns::find_points() {
-  if (triangles_ != 0) spawn_kernels_.find_hit_points(*points_);
-  for (std::size_t hit = 0; hit < hits_; ++hit) set_query(hit);
-  if (tree_) kernels_.touching(*tree_, queries_.data(), static_cast<int>(hits_));
-  alone_ = 0;
-  for (std::size_t hit = 0; hit < hits_; ++hit) {
-    if (is_alone(hit)) alone_ |= Lanes{1} << hit;
+  known_ = 0;
+  if (triangles_ != 0) {
+    spawn_kernels_.find_hit_points(*points_);
+    set_queries();
+  }
+  const Lanes all = (Lanes{1} << hits_) - 1;
+  for (Lanes others = all & ~triangles_; others != 0; others &= others - 1)
+    set_query(static_cast<std::size_t>(std::countr_zero(others)));
+  queries_.size = static_cast<int>(hits_);
+  std::ranges::fill(queries_.count, 0);
+  if (tree_) kernels_.touching(*tree_, queries_);
+  alone_ = known_;
+  for (Lanes rest = outside_.empty() ? known_ & crowded() : known_; rest != 0; rest &= rest - 1) {
+    if (!is_alone(static_cast<std::size_t>(std::countr_zero(rest)))) alone_ &= ~(rest & -rest);
   }
 }
 
 void FastSpawns::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes,
                           HitPointLanes& points) {
   points_ = &points;
-  hits_ = 0;
   triangles_ = on_meshes;
-  for (const PrimitiveId id : ids) {
-    if ((on_meshes >> hits_ & 1U) == 0) {
-      add(id, ray_of(points, hits_));
-      continue;
-    }
-    surfaces_[hits_].id = id;
-    surfaces_[hits_++].is_triangle = true;
+  std::ranges::copy(ids, queries_.omitted_id);
+  const Lanes all = (Lanes{1} << ids.size()) - 1;
+  for (Lanes others = all & ~on_meshes; others != 0; others &= others - 1) {
+    hits_ = static_cast<std::size_t>(std::countr_zero(others));
+    add(ids[hits_], ray_of(points, hits_));
   }
+  hits_ = ids.size();
   find_points();
 }
 
@@ -166,9 +174,7 @@ Lanes FastSpawns::leave(Lanes wanted, OriginLanes& lanes) const {
   if (found != 0) found &= spawn_kernels_.find_origins(*points_, lanes);
   for (Lanes others = open & ~triangles_; others != 0; others &= others - 1) {
     const auto hit = static_cast<std::size_t>(std::countr_zero(others));
-    const auto& surface = surfaces_[hit].other;
-    if (!surface) continue;
-    if (const auto origin = surface->origin(vector_of(lanes.direction, hit))) {
+    if (const auto origin = others_[hit]->origin(vector_of(lanes.direction, hit))) {
       put_vector(lanes.origin, hit, *origin);
       found |= Lanes{1} << hit;
     }

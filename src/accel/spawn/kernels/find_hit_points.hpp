@@ -106,7 +106,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   store3<N>(normal.value, lanes.n, i);
   store3<N>(normal.permanent, lanes.permanent, i);
   Doubles3<N> reach;
-  D plane_axis = D{} - 1;
+  D plane_axis = D{} - 1, plane_at{};
   for (int k = 2; k >= 0; --k) {
     reach.v[k] = axis == k ? reach_of(kFlatSteps, 1) * units.v[k] : units.v[k] / 2;
     // The margin is twice the reach, because the ends are rounded by less than the reach.
@@ -116,9 +116,11 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
     const auto is_normal =
         (normal.permanent.v[(k + 1) % 3] == 0) & (normal.permanent.v[(k + 2) % 3] == 0);
     plane_axis = is_normal ? D{} + k : plane_axis;
+    plane_at = is_normal ? a.v[k] : plane_at;
   }
   store3<N>(reach, lanes.reach, i);
   narrowed<N>(plane_axis, lanes.plane_axis + i);
+  narrowed<N>(plane_at, lanes.plane_at + i);
   narrowed<N>(axis, lanes.axis + i);
   narrowed<N>(is_sure ? D{} + 1 : D{}, lanes.is_sure + i);
 }

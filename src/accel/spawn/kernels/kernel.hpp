@@ -36,6 +36,7 @@ struct alignas(64) HitPointLanes {
                                  ///< exact hit point from p
   SpawnFloats lo[3], hi[3];      ///< a box around p +- reach; empty unless is_sure
   SpawnFloats plane_axis;        ///< the axis to which the normal is parallel, or -1
+  SpawnFloats plane_at;          ///< the triangle's coordinate on this axis
 };
 
 /// The directions and origins of rays that leave the points of HitPointLanes, one ray per point.
