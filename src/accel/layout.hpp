@@ -35,7 +35,7 @@ static_assert(sizeof(TriangleBlock) == 384);
 
 /// The triangles of a small tree, each once.
 struct FewTriangles {
-  static constexpr int kMost = 48;
+  static constexpr int kMost = 128;
 
   struct Box {
     float lo[3], hi[3];

@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -120,10 +121,13 @@ TEST(FewTriangles, RaysThroughParallelogramsHaveTheirExactHits) {
       for (std::size_t i = 0; i < kRays; ++i) rays.push_back(random_ray(random, all));
       std::vector<std::optional<Hit>> found(kRays);
       bvh.intersect(rays, found);
+      const auto occluded = std::make_unique<bool[]>(kRays);
+      bvh.occluded(rays, std::span(occluded.get(), kRays));
       for (std::size_t i = 0; i < kRays; ++i) {
         const std::optional<Hit> expected = hit_by_definition(primitives, rays[i]);
         hits += expected ? 1 : 0;
         ASSERT_TRUE(same(found[i], expected)) << "ray " << i << " of round " << round;
+        ASSERT_EQ(occluded[i], expected.has_value()) << "ray " << i << " of round " << round;
       }
     }
     EXPECT_GT(joined, triangles / 2);

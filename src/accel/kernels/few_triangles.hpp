@@ -9,16 +9,17 @@
 namespace microtrace {
 namespace {
 
-/// The number of triangles up to which testing all of them is faster than traversal.
+/// The number of facets up to which testing all of them is faster than traversal.
 template <int N>
-constexpr int kFewTriangles = 3 * N;
+constexpr int kFewFacets = 4 * N;
 
 template <int N>
 inline bool has_few_triangles(const TreeView& tree) {
-  return tree.few != nullptr && tree.few->count <= kFewTriangles<N>;
+  return tree.few != nullptr && tree.few->ends[FewTriangles::kOblique] <= kFewFacets<N>;
 }
 
-template <int N>
+/// Finds the nearest hits or, with kAny, any hits.
+template <int N, bool kAny>
 class FewTrianglesWalk {
  public:
   FewTrianglesWalk(const TreeView& tree, KernelStream& stream, const StreamFallback& slow)
@@ -48,6 +49,7 @@ class FewTrianglesWalk {
     const int rest = stream_.count - first_;
     Group group;
     group.rays = rest < N ? (Lanes{1} << rest) - 1 : kAllLanes<N>;
+    if (kAny) group.rays &= without_hit();
     for (int axis = 0; axis < 3; ++axis) {
       group.o[axis] = load<N>(stream_.o[axis] + first_);
       group.d[axis] = load<N>(stream_.d[axis] + first_);
@@ -58,16 +60,20 @@ class FewTrianglesWalk {
     load_best(group);
     const FewTriangles& few = *tree_.few;
     int i = 0;
-    for (; i < few.ends[0]; ++i) meet_upright<0>(few.facets[i], group);
-    for (; i < few.ends[1]; ++i) meet_upright<1>(few.facets[i], group);
-    for (; i < few.ends[2]; ++i) meet_upright<2>(few.facets[i], group);
-    for (; i < few.ends[FewTriangles::kOblique]; ++i) {
+    for (; i < few.ends[0] && group.rays != 0; ++i) meet_upright<0>(few.facets[i], group);
+    for (; i < few.ends[1] && group.rays != 0; ++i) meet_upright<1>(few.facets[i], group);
+    for (; i < few.ends[2] && group.rays != 0; ++i) meet_upright<2>(few.facets[i], group);
+    for (; i < few.ends[FewTriangles::kOblique] && group.rays != 0; ++i) {
       const FewTriangles::Facet& facet = few.facets[i];
       meet(facet, facet.e1, facet.e2, facet.n, group);
     }
     store_best(group);
   }
 
+  /// Returns the rays for which no hit has been found.
+  [[nodiscard]] Lanes without_hit() const {
+    return equal_to<N>(stream_.best_id + first_, kNoPrimitive);
+  }
   void load_best(Group& group) const {
     group.best_lo = load<N>(stream_.best_lo + first_);
     group.best_hi = load<N>(stream_.best_hi + first_);
@@ -133,6 +139,7 @@ class FewTrianglesWalk {
       group.best_hi = select<N>(nearer, t.hi, group.best_hi);
       group.limit = select<N>(nearer, t.hi, group.limit);
       store_where<N>(nearer, triangle.id, stream_.best_id + first_);
+      if (kAny) group.rays &= ~nearer;
     }
     rays.maybe &= ~nearer & ~farther;
     if (rays.maybe != 0) rays.maybe &= entering(triangle.box, group);
@@ -140,6 +147,7 @@ class FewTrianglesWalk {
     store_best(group);
     decide(triangle, rays, t, volumes.with_t());
     load_best(group);
+    if (kAny) group.rays &= without_hit();
   }
 
   /// Returns the rays that enter a triangle's bounding box before their nearest hits. As in a tree,

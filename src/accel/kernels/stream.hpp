@@ -272,7 +272,7 @@ class StreamWalk {
 template <int N, int M>
 void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
   if (has_few_triangles<M>(tree))
-    FewTrianglesWalk<M>(tree, stream, slow).run();
+    FewTrianglesWalk<M, false>(tree, stream, slow).run();
   else if (tree.instances != nullptr)
     StreamWalk<N, false, true>(tree, stream, slow, nullptr).run();
   else
@@ -282,6 +282,7 @@ void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamF
 /// M is the number of rays that packets test at a time.
 template <int N, int M>
 void any_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
+  if (has_few_triangles<M>(tree)) return FewTrianglesWalk<M, true>(tree, stream, slow).run();
   StreamItems items;
   OcclusionPacketWalk<M> packets(tree, stream, slow, items);
   for (int first = 0; first < stream.count; first += OcclusionPacketWalk<M>::kRays)
