@@ -78,13 +78,12 @@ void VertexQueue::find_frames() {
 }
 
 void VertexQueue::sample_lights(const WaveStep& step, const Lighting& lighting) {
-  alignas(64) LaneFloats unused;
   LightChoices<kShadingLanes>& points = choices_.points;
   TriangleChoices<kShadingLanes>& triangles = choices_.triangles;
   kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightPair),
                         triangles.u[0], triangles.u[1]);
-  kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightChoicePair),
-                        points.choice, unused);
+  kernels_.random_numbers(scatter_.key, scatter_.index, step.pair(sampling::kLightChoicePair),
+                          points.choice);
   copy(points.n, scatter_.frame_n);
   lighting.sample(kernels_, count_, choices_, lights_);
   copy(scatter_.light_wi, lights_.wi);

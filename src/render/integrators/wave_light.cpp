@@ -67,7 +67,7 @@ void Wave::meet_ground(std::size_t i) {
   const std::optional<Vec3> p = point_on_ground(paths_->ray(i), *ground_);
   if (!p) return;
   const sampling::Sobol sobol = paths_->sobol(i);
-  const float choice = sobol.pair(step_.pair(sampling::kLightChoicePair)).x;
+  const float choice = sobol.one(step_.pair(sampling::kLightChoicePair));
   const Vec2 u = sobol.pair(step_.pair(sampling::kLightPair));
   if (const auto light = lighting_->ground(world_->scene).sample(*p, choice, u))
     ground_shadows_.add(*p, light->to_light, light->is_far, paths_->slot[i]);

@@ -16,6 +16,7 @@ namespace microtrace {
 const ShadingKernels kAvx2Shading{"avx2",
                                   append<8>,
                                   random_pairs<8>,
+                                  random_numbers<8>,
                                   sample_positions<8>,
                                   sum_samples<kDoubleLanes<8>>,
                                   find_points<8, kShadingLanes>,

@@ -16,6 +16,7 @@ namespace microtrace {
 const ShadingKernels kAvx512Shading{"avx512",
                                     append<16>,
                                     random_pairs<16>,
+                                    random_numbers<16>,
                                     sample_positions<16>,
                                     sum_samples<kDoubleLanes<16>>,
                                     find_points<16, kShadingLanes>,

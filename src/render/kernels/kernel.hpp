@@ -109,6 +109,9 @@ struct ShadingKernels {
   /// Computes sampling::Sobol(keys[i], indices[i]).pair(number) for kShadingLanes samples.
   void (*random_pairs)(const std::uint32_t* keys, const std::uint32_t* indices,
                        std::uint32_t number, float* x, float* y);
+  /// Computes only the first numbers of these pairs.
+  void (*random_numbers)(const std::uint32_t* keys, const std::uint32_t* indices,
+                         std::uint32_t number, float* x);
   /// Samples positions in pixels, measured from their upper left corners, by these pairs of random
   /// numbers. A filter of null is the box filter.
   void (*sample_positions)(const std::uint32_t* keys, const std::uint32_t* indices,

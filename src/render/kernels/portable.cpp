@@ -16,6 +16,7 @@ namespace microtrace {
 const ShadingKernels kPortableShading{"portable",
                                       append<4>,
                                       random_pairs<4>,
+                                      random_numbers<4>,
                                       sample_positions<4>,
                                       sum_samples<kDoubleLanes<4>>,
                                       find_points<4, kShadingLanes>,

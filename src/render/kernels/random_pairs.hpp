@@ -1,5 +1,5 @@
 #pragma once
-/// Computes pairs of random numbers.
+/// Computes random numbers and pairs of them.
 
 #include "render/kernels/kernel.hpp"
 #include "render/sampling/sobol.hpp"
@@ -19,6 +19,14 @@ void random_pairs(const std::uint32_t* keys, const std::uint32_t* indices, std::
     store<N>(x + i, pair.x);
     store<N>(y + i, pair.y);
   }
+}
+
+/// Computes the first numbers of pairs.
+template <int N>
+void random_numbers(const std::uint32_t* keys, const std::uint32_t* indices, std::uint32_t number,
+                    float* x) {
+  for (int i = 0; i < kShadingLanes; i += N)
+    store<N>(x + i, load_sobol<N>(keys + i, indices + i).one(number));
 }
 
 }  // namespace microtrace

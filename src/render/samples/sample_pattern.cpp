@@ -1,6 +1,6 @@
 #include "render/samples/sample_pattern.hpp"
 
-#include "render/sampling/hash.hpp"
+#include "simd/bit_reversal.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@ namespace microtrace {
 std::vector<PixelOffset> sample_pattern(std::uint32_t n) {
   std::vector<std::uint32_t> by_row(n);
   std::iota(by_row.begin(), by_row.end(), 0U);
-  std::ranges::sort(by_row, {}, sampling::reversed_bits<std::uint32_t>);
+  std::ranges::sort(by_row, {}, reversed_bits<std::uint32_t>);
   std::vector<PixelOffset> pattern(n);
   for (std::uint32_t row = 0; row < n; ++row) {
     const std::uint32_t column = by_row[row];

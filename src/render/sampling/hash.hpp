@@ -22,13 +22,4 @@ constexpr Bits hash(const Bits& key, std::uint32_t value) {
   return mixed(Bits(key ^ mixed(value + 0x9e3779b9U)));
 }
 
-template <class Bits>
-constexpr Bits reversed_bits(Bits x) {
-  x = (x & 0x55555555U) << 1U | (x >> 1U & 0x55555555U);
-  x = (x & 0x33333333U) << 2U | (x >> 2U & 0x33333333U);
-  x = (x & 0x0f0f0f0fU) << 4U | (x >> 4U & 0x0f0f0f0fU);
-  x = (x & 0x00ff00ffU) << 8U | (x >> 8U & 0x00ff00ffU);
-  return x << 16U | x >> 16U;
-}
-
 }  // namespace microtrace::sampling

@@ -2,6 +2,7 @@
 /// Low-discrepancy random numbers, each a pure function of seed, pixel, sample and dimension.
 
 #include "render/sampling/hash.hpp"
+#include "simd/bit_reversal.hpp"
 #include "simd/vector3.hpp"
 
 #include <microtrace/math.hpp>
@@ -57,17 +58,25 @@ class SobolLanes {
 
   /// The two numbers of this pair, in [0, 1).
   [[nodiscard]] Floats2<N> pair(std::uint32_t number) const {
-    const Bits key = hash(key_, number);
-    const Bits n = reversed_bits(scrambled_upwards(index_, key));
-    // The first dimension of the Sobol sequence is the bit-reversed index.
-    return {unit_float(scrambled_upwards(n, hash(key, 1))),
-            unit_float(scrambled_upwards(sobol_upwards(n), hash(key, 2)))};
+    const Bits key = hash(key_, number), n = place(key);
+    return {first(n, key), unit_float(scrambled_upwards(sobol_upwards(n), hash(key, 2)))};
   }
 
   /// The first number of this pair, in [0, 1).
-  [[nodiscard]] Float<N> one(std::uint32_t number) const { return pair(number).x; }
+  [[nodiscard]] Float<N> one(std::uint32_t number) const {
+    const Bits key = hash(key_, number);
+    return first(place(key), key);
+  }
 
  private:
+  /// The sample's place in the order of a pair.
+  [[nodiscard]] Bits place(const Bits& key) const {
+    return reversed_bits(scrambled_upwards(index_, key));
+  }
+  /// The first dimension of the Sobol sequence is the bit-reversed index.
+  [[nodiscard]] static Float<N> first(const Bits& n, const Bits& key) {
+    return unit_float(scrambled_upwards(n, hash(key, 1)));
+  }
   /// Converts bits to a float in [0, 1). The lowest bit is the most significant one.
   static Float<N> unit_float(const Bits& upwards) {
     return to_float<N>(reinterpreted<Int<N>>(Bits(reversed_bits(upwards) >> 8U))) * 0x1p-24F;

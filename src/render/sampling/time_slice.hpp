@@ -4,6 +4,7 @@
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/hash.hpp"
 #include "render/sampling/sobol.hpp"
+#include "simd/bit_reversal.hpp"
 
 #include <bit>
 #include <cstdint>
