@@ -9,8 +9,9 @@ namespace microtrace {
 
 /// Returns for each tile, in order, the mean over the tile's pixels of s / ((L + M) / 2). L is the
 /// pixel's displayed luminance, s the estimated standard error of L, and M the mean of L over the
-/// window. The result is 0 if all pixels are black. Sums have a fixed order.
-[[nodiscard]] std::vector<double> tile_errors(const SampleSums& sums);
+/// window. The result is 0 if all pixels are black. If the picture has alpha, a pixel's error is at
+/// least the same of a white background that it lets through. Sums have a fixed order.
+[[nodiscard]] std::vector<double> tile_errors(const SampleSums& sums, bool has_alpha);
 
 /// Returns true for each tile that has converged: its error and the errors of its eight neighbors
 /// are at most `target`. The neighbors count because a tile may not have sampled a bright spot yet.

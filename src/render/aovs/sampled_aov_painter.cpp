@@ -44,6 +44,17 @@ float value_of(SampledAov aov, std::size_t channel, const PixelSum& sum, const V
   return color[static_cast<glm::length_t>(channel)];
 }
 
+/// Options of paths that end at the first surface. Where the background is seen, the colors are the
+/// same, including shadows on a ground.
+PathOptions ending_at_once(const Integrator* integrator) {
+  PathOptions options;
+  if (const auto* paths = dynamic_cast<const PathIntegrator*>(integrator); paths != nullptr)
+    options = paths->options();
+  options.max_depth = 1;
+  options.guiding = false;
+  return options;
+}
+
 constexpr std::array kAovsOfSums = {SampledAov::variance, SampledAov::samples, SampledAov::noisy};
 
 std::optional<SampledAov> aov_of_sums(std::string_view channel) {
@@ -89,6 +100,7 @@ SampledAovPainter::SampledAovPainter(const World& world, const RenderOptions& op
       ray_(world.camera, world.scene),
       filter_(options.filter),
       background_(background),
+      light_(ending_at_once(options.integrator)),
       emission_(world, light_, options, background),
       window_(window),
       film_(film) {

@@ -55,7 +55,7 @@ class SampledAovPainter {
   CameraRays ray_;
   FilterSampler filter_;
   Vec3 background_;
-  PathIntegrator light_{{.max_depth = 1}};  ///< takes the same samples as the colors' integrator
+  PathIntegrator light_;  ///< takes the same samples as the colors' integrator
   RandomPainter emission_;
   const PixelRect& window_;
   Film& film_;

@@ -61,8 +61,7 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
     SampleSums own;
     SampleSums& sums = passes.sums != nullptr ? *passes.sums : own;
     prepare(sums, drawing, film.whole, background);
-    run_passes(painters, passes.part.value_or(all), passes, drawing.start, drawing.threads,
-               options.progress, sums);
+    run_passes(drawing, painters, passes.part.value_or(all), passes, sums);
     samples_per_pixel = sums.count();
     // The channels of a part are those of the whole picture.
     const bool is_part = passes.part.has_value();

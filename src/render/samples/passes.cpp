@@ -44,8 +44,8 @@ SampleSums empty_like(const SampleSums& sums) {
 /// The tiles that need no more samples.
 class Stops {
  public:
-  Stops(const SampleSums& sums, double target)
-      : target_(target), stopped_(tile_count(sums.window)) {
+  Stops(const SampleSums& sums, double target, bool has_alpha)
+      : target_(target), has_alpha_(has_alpha), stopped_(tile_count(sums.window)) {
     if (target <= 0) return;
     const std::uint32_t most = sums.count();
     for (std::size_t i = 0; i < stopped_.size(); ++i) {
@@ -60,7 +60,7 @@ class Stops {
     if (target_ <= 0 || count < kFirstCheck || !std::has_single_bit(count) ||
         sums.ranges() != std::vector<SampleRange>{{.first = 0, .last = count}})
       return;
-    const std::vector<bool> good = good_tiles(tile_errors(sums), sums.window, target_);
+    const std::vector<bool> good = good_tiles(tile_errors(sums, has_alpha_), sums.window, target_);
     for (std::size_t i = 0; i < stopped_.size(); ++i) stopped_[i] = stopped_[i] || good[i];
   }
 
@@ -77,19 +77,21 @@ class Stops {
  private:
   static constexpr std::uint32_t kFirstCheck = 32;
   double target_;
+  bool has_alpha_;
   std::vector<bool> stopped_;
 };
 
 }  // namespace
 
-void run_passes(Painters& painters, const SampleRange& wanted, const Passes& passes,
-                std::chrono::steady_clock::time_point start, Threads& threads,
-                const std::function<bool(double)>& progress, SampleSums& sums) {
+void run_passes(const RandomDrawing& drawing, Painters& painters, const SampleRange& wanted,
+                const Passes& passes, SampleSums& sums) {
+  Threads& threads = drawing.threads;
+  const std::function<bool(double)>& progress = drawing.options.progress;
   std::uint32_t to_do = 0, done = 0;
   for (const SampleRange& range : sums.missing(wanted)) to_do += range.size();
-  Stops stops(sums, passes.target_error);
+  Stops stops(sums, passes.target_error, drawing.options.transparent);
   const auto is_up = [&] {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - drawing.start;
     return spent.count() >= passes.time_limit;
   };
   // The caller's sums receive a pass when it is complete, so that a canceled pass leaves no trace.

@@ -211,6 +211,37 @@ TEST(Features, LampsAreEmissionWhereTheyAreSeenDirectly) {
   EXPECT_EQ(vector_at(empty, 6), Vec3(0.7F));
 }
 
+// Emission includes a background with the shadows on a ground, so that the rest of the color, which
+// is denoised, is not negative where a surface covers part of a pixel.
+TEST(SampledAov, EmissionIncludesShadowsOnAGround) {
+  Scene scene;
+  scene.background = Vec3(0.8F);
+  scene.environment = Environment{};
+  scene.materials = {{.base_color = Vec4(0.1F, 0.1F, 0.1F, 0.3F), .alpha_mode = AlphaMode::blend},
+                     {.base_color = Vec4(0, 0, 0, 1)}};
+  scene.objects.push_back({.name = "veil",
+                           .shape = Disc{.center = {0, 0.2F, 0}, .normal = {0, 1, 0}, .radius = 2},
+                           .material = 0});
+  scene.objects.push_back(
+      {.name = "ball", .shape = Sphere{.center = {0, 1, 0}, .radius = 1}, .material = 1});
+  const PathIntegrator paths({.ground = Ground{}});
+  const Film film =
+      render(scene, PerspectiveCamera{.pose = {.position = {0, 4, 6}, .direction = {0, -0.6, -1}}},
+             kSampledSize,
+             {.integrator = &paths,
+              .samples = 32,
+              .sampled_aovs = {SampledAov::emission, SampledAov::noisy}});
+  int shadows = 0;
+  for (std::uint32_t y = 0; y < kSampledSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kSampledSize.width; ++x) {
+      const float emission = value(film, 0, x, y), color = value(film, 3, x, y);
+      ASSERT_LE(emission, color + 1e-6F) << x << " " << y;
+      shadows += emission > 0.1F && emission < 0.7F ? 1 : 0;
+    }
+  }
+  EXPECT_GT(shadows, 50);
+}
+
 TEST(SampledAov, NamesAreThoseOfTheCommandLine) {
   for (const SampledAov aov : kSampledAovs) EXPECT_EQ(sampled_aov_named(name_of(aov)), aov);
   EXPECT_EQ(sampled_aov_named("depth"), std::nullopt);

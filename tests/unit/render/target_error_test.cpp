@@ -50,7 +50,7 @@ Film drawn_to(double target, SampleSums& sums, std::uint32_t samples, unsigned t
 TEST(TileErrors, AreRelativeToPixelAndPictureLuminance) {
   SampleSums sums;
   (void)drawn_to(0, sums, 4096);
-  const std::vector<double> errors = tile_errors(sums);
+  const std::vector<double> errors = tile_errors(sums, false);
   ASSERT_EQ(errors.size(), 18U);  // 6 x 3 tiles
   const double mean = (1 + 1 + 0.01) / 3, s = 1 / std::sqrt(4095.0);
   for (std::size_t row = 0; row < 3; ++row) {
@@ -60,9 +60,47 @@ TEST(TileErrors, AreRelativeToPixelAndPictureLuminance) {
   }
 }
 
+/// Covers half of the picture with a black shadow that lets half of the light through.
+class ShadowIntegrator final : public Integrator {
+ public:
+  void trace(const World& world, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
+             std::span<Sample> samples) const override {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      using sampling::hash;
+      const std::uint32_t key = hash(hash(hash(world.seed, ids[i].x), ids[i].y), ids[i].index);
+      samples[i] = {.color = Vec3(0), .alpha = ids[i].x < 24 ? static_cast<float>(key >> 31U) : 0};
+    }
+  }
+  [[nodiscard]] bool is_random() const override { return true; }
+};
+
+// Over white, the shadow has a mean of 1/2, the picture one of 3/4, and a sample has the standard
+// deviation 1/2.
+TEST(TileErrors, CountTheNoiseOfBlackShadowsInPicturesWithAlpha) {
+  const ShadowIntegrator integrator;
+  SampleSums sums;
+  const auto draw = [&](double target, std::uint32_t samples) {
+    (void)render(Scene{}, PerspectiveCamera{}, kTargetSize,
+                 {.integrator = &integrator,
+                  .samples = samples,
+                  .passes = Passes{.sums = &sums, .target_error = target},
+                  .transparent = true});
+  };
+  draw(0, 4096);
+  const std::vector<double> errors = tile_errors(sums, true);
+  const double s = 0.5 / std::sqrt(4095.0);
+  EXPECT_NEAR(errors[0], s / ((0.5 + 0.75) / 2), 1e-2 * s);
+  EXPECT_EQ(errors[5], 0);
+  EXPECT_EQ(tile_errors(sums, false), std::vector<double>(18, 0.0));
+  sums = {};
+  draw(0.1, 4096);
+  EXPECT_EQ(sums.at(0, 0).count, 128U);  // errors at 64 and 128 samples: 0.101, 0.071
+  EXPECT_EQ(sums.at(47, 0).count, 32U);
+}
+
 TEST(TileErrors, BlackPicturesHaveNone) {
   const SampleSums sums({.width = 9, .height = 3}, {0, 0, 9, 3}, Vec3(0));
-  EXPECT_EQ(tile_errors(sums), (std::vector<double>{0, 0}));
+  EXPECT_EQ(tile_errors(sums, false), (std::vector<double>{0, 0}));
 }
 
 TEST(TileErrors, ConvergedTilesHaveConvergedNeighbors) {
