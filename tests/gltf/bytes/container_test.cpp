@@ -63,6 +63,24 @@ TEST(GltfContainer, TrailingBytesAreIgnoredWithAWarning) {
               testing::ElementsAre(": 3 bytes after the end of the GLB file are ignored"));
 }
 
+TEST(GltfContainer, ZeroBytesAfterTheJsonGiveAWarning) {
+  std::string json = cube().with_buffer(nullptr).dump();
+  json.resize((json.size() + 7) / 4 * 4, '\0');
+  const std::string bin = padded(cube().buffer, '\0');
+  const LoadedScene loaded = load(glb_file({{kJsonChunk, json}, {kBinChunk, bin}}));
+  EXPECT_EQ(loaded.scene.objects.size(), 1U);
+  EXPECT_THAT(texts(loaded.warnings), testing::ElementsAre(HasSubstr("padded with zero bytes")));
+}
+
+TEST(GltfContainer, Base64MayBePercentEncoded) {
+  std::string uri = "data:application/octet-stream;base64," + base64(cube().buffer);
+  const auto last = static_cast<unsigned char>(uri.back());
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  uri.pop_back();
+  uri += {'%', kDigits[last / 16], kDigits[last % 16]};
+  expect_same_cube(load(cube().with_buffer(uri.c_str()).dump()));
+}
+
 TEST(GltfContainer, UnalignedChunksGiveAWarning) {
   std::string json = cube().with_buffer(nullptr).dump();
   json.resize(json.size() / 4 * 4 + 5, ' ');

@@ -48,6 +48,8 @@ const Poke refused[] = {
 };
 
 const Poke survived[] = {
+    {set<std::uint8_t>(rig_joints, 7, 9), "/meshes/0/primitives/0/attributes/JOINTS_0",
+     "1 times to joints that the skin does not have, with a weight of 0"},
     {set(rig_positions, 4, NAN), "/accessors/0", "element 1 is not finite"},
     {set(rig_normals, 8, kInfinity), "/accessors/1", "element 2 is not finite"},
     {set(rig_weights, 0, -kInfinity), "/accessors/6", "element 0 is not finite"},

@@ -221,7 +221,7 @@ std::set<std::string> documented(const std::string& heading, const std::string& 
   std::string text = text_of("docs/gltf.md");
   text = text.substr(text.find(heading));
   text.resize(text.find(next));
-  const std::regex name("`((KHR_materials|KHR|EXT|MSFT)?_[a-z]\\w*)`");
+  const std::regex name("`((?:KHR_materials|AGI|CESIUM|EXT|FB|KHR|MSFT|VRMC)?_[a-z]\\w*|VRM)`");
   std::set<std::string> result;
   for (std::sregex_iterator at(text.begin(), text.end(), name); at != std::sregex_iterator();
        ++at) {
@@ -229,6 +229,29 @@ std::set<std::string> documented(const std::string& heading, const std::string& 
     result.insert(found[0] == '_' ? "KHR_materials" + found : found);
   }
   return result;
+}
+
+TEST(GltfExtensions, WithoutEffectMayBeRequired) {
+  for (const Extension& extension : extensions()) {
+    if (extension.support != Support::harmless) continue;
+    AssetBuilder asset = cube();
+    asset.json["extensionsUsed"] = asset.json["extensionsRequired"] =
+        Json::array({std::string(extension.name)});
+    const LoadedScene loaded = load(asset);
+    EXPECT_EQ(loaded.scene.objects.size(), 1U) << extension.name;
+    EXPECT_THAT(texts(loaded.warnings), testing::ElementsAre(testing::HasSubstr("is ignored")));
+  }
+}
+
+TEST(GltfExtensions, DefineAttributes) {
+  AssetBuilder asset = cube();
+  Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["KHR_gaussian_splatting:SCALE"] = attributes["POSITION"];
+  EXPECT_THAT(texts(load(asset).warnings),
+              testing::ElementsAre(testing::HasSubstr("is not a glTF 2.0 attribute")));
+  asset.json["extensionsUsed"] = {"KHR_gaussian_splatting"};
+  EXPECT_THAT(texts(load(asset).warnings),
+              testing::ElementsAre(testing::HasSubstr("is not supported")));
 }
 
 TEST(GltfExtensions, AreDocumented) {

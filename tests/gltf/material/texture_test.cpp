@@ -67,13 +67,20 @@ TEST(GltfTexture, ImagesMayBeInBufferViewsDataUrisAndFiles) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(GltfTexture, MissingFilesAreErrorsWithAPointer) {
+TEST(GltfTexture, MissingFilesAreWhite) {
   AssetBuilder asset = textured();
   asset.json["images"][0] = {{"uri", "none.png"}};
-  EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri");
-  EXPECT_THAT(error_of(asset).what(), HasSubstr("does not exist"));
-  asset.json["materials"] = Json::array({Json::object()});
-  EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri") << "drawn or not";
+  for (const char* drawn : {"drawn", "not drawn"}) {
+    SCOPED_TRACE(drawn);
+    const LoadedScene loaded = load(asset);
+    ASSERT_EQ(loaded.warnings.size(), 1U);
+    EXPECT_EQ(loaded.warnings[0].pointer, "/images/0/uri");
+    EXPECT_THAT(loaded.warnings[0].message, HasSubstr("does not exist"));
+    EXPECT_EQ(loaded.scene.images.at(0), nullptr);
+    asset.json["materials"] = Json::array({Json::object()});
+  }
+  asset.json["images"][0] = {{"uri", "../none.png"}};
+  EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri") << "outside of the folder";
 }
 
 TEST(GltfTexture, DamagedImagesAreErrorsWithAPointer) {

@@ -208,6 +208,24 @@ TEST(GltfSkin, JointIndexOutOfRangeIsRefused) {
   }
 }
 
+// Exporters have filled unused influences with the number of joints.
+TEST(GltfSkin, UnusedInfluencesMayNameAnyJoint) {
+  AssetBuilder asset = arm();
+  const std::size_t vertices = straight.size();
+  std::vector<float> weights;
+  std::vector<std::uint8_t> joints;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    weights.insert(weights.end(), {1, 0, 0, 0});
+    joints.insert(joints.end(), {0, 255, 2, 2});
+  }
+  Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["WEIGHTS_0"] = asset.add_numbers<float>("VEC4", weights);
+  attributes["JOINTS_0"] = asset.add_numbers<std::uint8_t>("VEC4", joints);
+  const LoadedScene loaded = load(asset);
+  EXPECT_EQ(posed_mesh(loaded).positions, straight);
+  EXPECT_THAT(texts(loaded.warnings), testing::ElementsAre(HasSubstr("with a weight of 0")));
+}
+
 TEST(GltfSkin, MeshWithoutJointsIsPlacedByItsNode) {
   AssetBuilder asset = arm();
   Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];

@@ -122,6 +122,11 @@ Container open_container(std::string_view bytes, const std::string& name) {
     if (chunk.type == kBinType) result.bin = chunk.data;
   }
   result.is_aligned = reader.is_aligned();
+  const std::size_t end = result.json.find_last_not_of('\0');
+  if (end != std::string_view::npos && end + 1 < result.json.size()) {
+    result.json = result.json.substr(0, end + 1);
+    result.has_zero_padding = true;
+  }
   return result;
 }
 

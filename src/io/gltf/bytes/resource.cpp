@@ -10,12 +10,38 @@
 #include <utility>
 
 namespace microtrace::io::gltf {
+namespace {
+
+/// The path of a file, and whether it may be read.
+struct ResourcePath {
+  RelativePath relative;
+  std::filesystem::path path;
+  bool is_allowed;
+};
+
+ResourcePath resource_path(const Element& uri, const ResourceFolders& folders) {
+  RelativePath relative = relative_path(uri.value->string);
+  std::filesystem::path path = folders.own / relative.path;
+  const bool is_allowed =
+      relative.refusal.empty() || (relative.leads_out && lies_within(folders.allowed, path));
+  return {.relative = std::move(relative), .path = std::move(path), .is_allowed = is_allowed};
+}
+
+std::optional<std::string> decoded(const DataUri& data) {
+  // RFC 2397 allows escaped characters in base64 too.
+  const bool is_escaped = !data.is_base64 || data.data.find('%') != std::string_view::npos;
+  if (!is_escaped) return decode_base64(data.data);
+  std::optional<std::string> text = decode_percent(data.data);
+  return data.is_base64 && text ? decode_base64(*text) : text;
+}
+
+}  // namespace
+
 std::string decode_data_uri(const Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string);
   if (!data) asset.fail(uri, "is not a data URI of the form data:TYPE;base64,DATA");
   take_memory(data->data.size() / 4 * 3, "the data of data URIs");
-  std::optional<std::string> bytes =
-      data->is_base64 ? decode_base64(data->data) : decode_percent(data->data);
+  std::optional<std::string> bytes = decoded(*data);
   if (!bytes && data->is_base64) {
     asset.fail(uri,
                "is not base64, which consists of groups of four of A-Z a-z 0-9 + /, padded with =");
@@ -26,10 +52,7 @@ std::string decode_data_uri(const Asset& asset, const Element& uri) {
 
 std::string read_resource(const Asset& asset, const Element& uri, const ResourceFolders& folders,
                           const char* what, std::size_t max_bytes) {
-  const RelativePath relative = relative_path(uri.value->string);
-  const std::filesystem::path path = folders.own / relative.path;
-  const bool is_allowed =
-      relative.refusal.empty() || (relative.leads_out && lies_within(folders.allowed, path));
+  const auto [relative, path, is_allowed] = resource_path(uri, folders);
   if (!is_allowed) {
     asset.fail(uri, in_quotes(uri.value->string) + " " + relative.refusal +
                         (relative.leads_out ? ", or allow its folder (--allow-path)" : ""));
@@ -49,6 +72,12 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   } catch (const Error& error) {
     asset.fail(uri, file + " " + error.diagnostic().message, error.kind());
   }
+}
+
+bool is_missing_resource(const Element& uri, const ResourceFolders& folders) {
+  const ResourcePath place = resource_path(uri, folders);
+  std::error_code code;
+  return place.is_allowed && !std::filesystem::exists(place.path, code) && !code;
 }
 
 void note_unread_resource(const Element& uri, const ResourceFolders& folders) {

@@ -26,6 +26,9 @@ struct ResourceFolders {
                                         const ResourceFolders& folders, const char* what,
                                         std::size_t max_bytes);
 
+/// True if a URI names a file that may be read but does not exist.
+[[nodiscard]] bool is_missing_resource(const Element& uri, const ResourceFolders& folders);
+
 /// Records a file that a URI names but that is not read, so that outputs don't overwrite this file
 /// either.
 void note_unread_resource(const Element& uri, const ResourceFolders& folders);

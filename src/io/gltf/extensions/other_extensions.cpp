@@ -95,15 +95,27 @@ constexpr Extension image_row(string_view name, Support support, string_view ima
           .image_type = image_type};
 }
 
+/// Returns the row of an extension without effect on pictures.
+constexpr Extension harmless_row(string_view name) {
+  return {.name = name, .support = Support::harmless, .objects = {{{Place::anywhere}}}};
+}
+
 constexpr Extension kList[] = {
+    harmless_row("AGI_articulations"),
+    harmless_row("CESIUM_primitive_outline"),
+    harmless_row("EXT_instance_features"),
+    harmless_row("EXT_mesh_features"),
     {"EXT_mesh_gpu_instancing", Support::full, {{{Place::node, kInstancing}}}},
     {"EXT_meshopt_compression",
      Support::full,
      {{{Place::buffer, kMeshoptBuffer}, {Place::buffer_view, kMeshoptView}}}},
+    harmless_row("EXT_structural_metadata"),
     image_row("EXT_texture_avif", Support::none, "image/avif"),
     image_row("EXT_texture_webp", Support::full, "image/webp"),
+    harmless_row("FB_ngon_encoding"),
     {"KHR_animation_pointer", Support::full, {{{Place::animation_target, kAnimationPointer}}}},
     {"KHR_draco_mesh_compression", Support::full, {{{Place::primitive, kDraco}}}},
+    harmless_row("KHR_interactivity"),
     {"KHR_lights_punctual",
      Support::full,
      {{{Place::root, kLights}, {Place::node, kLightReference}}}},
@@ -114,10 +126,12 @@ constexpr Extension kList[] = {
     {"KHR_meshopt_compression",
      Support::none,
      {{{Place::buffer, kMeshoptBuffer}, {Place::buffer_view, kMeshoptView}}}},
+    harmless_row("KHR_node_hoverability"),
+    harmless_row("KHR_node_selectability"),
     {"KHR_node_visibility", Support::full, {{{Place::node, kVisibility}}}},
     image_row("KHR_texture_basisu", Support::full, "image/ktx2"),
     {"KHR_texture_transform", Support::full, {{{Place::texture_info, kTextureTransform}}}},
-    {"KHR_xmp", Support::harmless, {{{Place::anywhere}}}},
+    harmless_row("KHR_xmp"),
     {"KHR_xmp_json_ld",
      Support::harmless,
      {{{Place::root, kPackets},
@@ -128,7 +142,12 @@ constexpr Extension kList[] = {
        {Place::mesh, kPacket},
        {Place::node, kPacket},
        {Place::scene, kPacket}}}},
+    harmless_row("MSFT_lod"),
     image_row("MSFT_texture_dds", Support::none, "image/vnd-ms.dds"),
+    harmless_row("VRM"),
+    harmless_row("VRMC_node_constraint"),
+    harmless_row("VRMC_springBone"),
+    harmless_row("VRMC_vrm"),
 };
 
 }  // namespace

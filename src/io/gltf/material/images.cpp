@@ -49,15 +49,19 @@ std::string small_letters(std::string_view text) {
   return result;
 }
 
+/// True if the type is that of the format. Accepts image/jpg, which is not registered but common.
+bool is_type_of(std::string_view type, ImageFormat format) {
+  return type == media_type(format) || (type == "image/jpg" && format == ImageFormat::jpeg);
+}
+
 /// Returns true if a data URI declares the correct media type. Otherwise warns (glTF 2.0, section
-/// 2.8), as the Khronos validator does. Accepts image/jpg, which is not registered but common.
+/// 2.8), as the Khronos validator does.
 bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   constexpr std::array<std::string_view, 2> kNotDecoded = {"image/avif", "image/vnd-ms.dds"};
   const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
-  const bool is_right =
-      format == ImageFormat::unknown
-          ? std::ranges::find(kNotDecoded, type) != kNotDecoded.end()
-          : type == media_type(format) || (type == "image/jpg" && format == ImageFormat::jpeg);
+  const bool is_right = format == ImageFormat::unknown
+                            ? std::ranges::find(kNotDecoded, type) != kNotDecoded.end()
+                            : is_type_of(type, format);
   if (is_right) return true;
   asset.tolerate(uri, "has the media type " + in_quotes(type) + ", but the data is " +
                           (format == ImageFormat::unknown ? "neither PNG, JPEG, WebP nor KTX2"
@@ -71,6 +75,12 @@ class ImageLoader {
       : asset_(asset), views_(views), folders_(folders) {}
 
   std::shared_ptr<const Image> load(const Element& at, ImageUse use) {
+    if (is_missing(at)) {
+      asset_.tolerate(at.member("uri"), "names a file that does not exist; its textures are white");
+      note_unread_resource(at.member("uri"), folders_);
+      add_to_read_digest("missing image");  // the picture is another one
+      return nullptr;
+    }
     std::string storage;
     MemoryAccount file(memory_account().budget());
     const std::optional<std::string_view> bytes = bytes_of(at, storage, file);
@@ -98,7 +108,7 @@ class ImageLoader {
       return nullptr;
     }
     const std::string_view type = declared_type(at);
-    if (is_right && !type.empty() && type != media_type(header.format)) {
+    if (is_right && !type.empty() && !is_type_of(type, header.format)) {
       asset_.tolerate(at, "is declared as " + in_quotes(std::string(type)) + ", but it is " +
                               std::string(media_type(header.format)));
     }
@@ -108,6 +118,12 @@ class ImageLoader {
   }
 
  private:
+  [[nodiscard]] bool is_missing(const Element& at) const {
+    const JsonValue* uri = at.value->find("uri");
+    return uri != nullptr && !is_data_uri(uri->string) &&
+           is_missing_resource(at.member("uri"), folders_);
+  }
+
   std::optional<std::string_view> bytes_of(const Element& at, std::string& storage,
                                            MemoryAccount& memory) const {
     const MemoryScope scope(memory);

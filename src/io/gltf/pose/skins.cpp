@@ -67,13 +67,19 @@ std::optional<JointBlend> Skins::blend(std::size_t skin, std::size_t mesh, const
   if (result.sets_.empty() || joint_matrices.empty()) return std::nullopt;
   result.world_from_mesh_ = &joint_matrices;
   for (std::size_t set = 0; set < result.sets_.size(); ++set) {
-    for (const glm::uvec4& joints : result.sets_[set].joints) {
-      const std::uint32_t greatest = std::max({joints.x, joints.y, joints.z, joints.w});
-      if (greatest < joint_matrices.size()) continue;
-      asset_.fail(attributes.member("JOINTS_" + std::to_string(set)),
-                  "names joint " + std::to_string(greatest) + ", but /skins/" +
-                      std::to_string(skin) + " has only " + std::to_string(joint_matrices.size()) +
-                      ", counted from 0");
+    auto& [all_joints, all_weights] = result.sets_[set];
+    for (std::size_t i = 0; i < all_joints.size(); ++i) {
+      for (glm::length_t k = 0; k < 4; ++k) {
+        std::uint32_t& joint = all_joints[i][k];
+        if (joint < joint_matrices.size()) continue;
+        if (all_weights[i][k] != 0) {
+          asset_.fail(attributes.member("JOINTS_" + std::to_string(set)),
+                      "names joint " + std::to_string(joint) + ", but /skins/" +
+                          std::to_string(skin) + " has only " +
+                          std::to_string(joint_matrices.size()) + ", counted from 0");
+        }
+        joint = 0;  // exporters fill unused influences with any number
+      }
     }
   }
   check_weights(attributes, result);

@@ -88,6 +88,9 @@ struct GltfFile::Content {
       asset.tolerate(asset.root(),
                      "chunks of the GLB file have lengths that are not multiples of 4");
     }
+    if (container.has_zero_padding) {
+      asset.tolerate(asset.root(), "the JSON chunk of the GLB file is padded with zero bytes");
+    }
     if (container.extra_bytes != 0) {
       asset.warn(asset.root(), std::to_string(container.extra_bytes) +
                                    " bytes after the end of the GLB file are ignored");

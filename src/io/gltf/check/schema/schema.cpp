@@ -205,6 +205,13 @@ class Checker {
     }
   }
 
+  /// True for the attributes that extensions such as KHR_gaussian_splatting define, whose names
+  /// begin with the extension's and a colon.
+  [[nodiscard]] bool is_of_extension(std::string_view attribute) const {
+    const std::size_t colon = attribute.find(':');
+    return colon != std::string_view::npos && asset_.uses(attribute.substr(0, colon));
+  }
+
   void attributes(const Element& at, const Rule& rule) {
     require(at, at.value->kind == Kind::object, "must be an object");
     if (at.value->members.empty() && rule.form != Form::attributes) {
@@ -216,7 +223,9 @@ class Checker {
       const Element attribute{&member.value, child(at.pointer, member.key)};
       const bool has_name =
           of_instances ? is_instance_attribute_name(member.key) : is_attribute_name(member.key);
-      if (!has_name) {
+      if (!has_name && is_of_extension(member.key)) {
+        dropped.push_back(member.key);
+      } else if (!has_name) {
         asset_.tolerate(
             attribute,
             "is not a glTF 2.0 attribute, and names of custom attributes begin with _; it "

@@ -45,7 +45,8 @@ class InfluenceCheck {
       }
       auto joint_elements = elements(*joints), weight_elements = elements(*weights);
       if (!joint_elements || !weight_elements) return;
-      check_joints(attributes.member("JOINTS_" + number), *joint_elements, joint_count);
+      check_joints(attributes.member("JOINTS_" + number), *joint_elements, *weight_elements,
+                   joint_count);
       sets_.emplace_back(std::move(*joint_elements), std::move(*weight_elements));
     }
     if (!sets_.empty()) check_weights(attributes.member("WEIGHTS_0"));
@@ -72,14 +73,24 @@ class InfluenceCheck {
     }
   }
 
-  void check_joints(const Element& at, const Elements& joints, std::size_t joint_count) const {
+  void check_joints(const Element& at, const Elements& joints, const Elements& weights,
+                    std::size_t joint_count) const {
+    std::size_t unused = 0;
     for (std::size_t i = 0; i < joints.count(); ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
         if (joint(joints, i, k) < joint_count) continue;
+        if (i < weights.count() && weight(weights, i, k) == 0) {
+          ++unused;
+          continue;
+        }
         asset_.fail(at, "vertex " + std::to_string(i) + " refers to joint " +
                             std::to_string(joint(joints, i, k)) + " of a skin of only " +
                             std::to_string(joint_count));
       }
+    }
+    if (unused != 0) {
+      asset_.tolerate(at, "refers " + std::to_string(unused) +
+                              " times to joints that the skin does not have, with a weight of 0");
     }
   }
 
