@@ -8,6 +8,7 @@
 #include "support/cases/adversarial_scenes.hpp"
 #include "support/cases/placed_scenes.hpp"
 #include "support/effort.hpp"
+#include "support/hit_by_definition.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/prepared_scene.hpp>
@@ -30,15 +31,6 @@ using namespace adversarial;
 
 std::uint32_t bits(float x) {
   return std::bit_cast<std::uint32_t>(x);
-}
-
-testing::AssertionResult same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
-  if (a.has_value() == b.has_value() && (!a || (a->id == b->id && bits(a->t) == bits(b->t))))
-    return testing::AssertionSuccess();
-  const auto show = [](const std::optional<Hit>& hit) {
-    return hit ? std::to_string(hit->id) + " at " + std::to_string(hit->t) : std::string("none");
-  };
-  return testing::AssertionFailure() << show(a) << " is not " << show(b);
 }
 
 testing::AssertionResult same(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {

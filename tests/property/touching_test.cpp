@@ -66,7 +66,7 @@ class Places {
   }
 
  private:
-  std::optional<std::set<PrimitiveId>> search(BoxQueries query, const FewTriangles* few) const {
+  std::optional<std::set<PrimitiveId>> search(BoxQueries& query, const FewTriangles* few) const {
     kernels_.touching({.nodes = tree_.nodes.data(),
                        .blocks = tree_.blocks.data(),
                        .others = tree_.others.data(),

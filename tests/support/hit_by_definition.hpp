@@ -8,6 +8,8 @@
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
 
+#include <bit>
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -30,9 +32,11 @@ namespace microtrace {
   return best;
 }
 
+/// Compares the bits of t.
 [[nodiscard]] inline ::testing::AssertionResult same(const std::optional<Hit>& a,
                                                      const std::optional<Hit>& b) {
-  if (a.has_value() == b.has_value() && (!a || (a->id == b->id && a->t == b->t)))
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  if (a.has_value() == b.has_value() && (!a || (a->id == b->id && bits(a->t) == bits(b->t))))
     return ::testing::AssertionSuccess();
   const auto show = [](const std::optional<Hit>& hit) {
     return hit ? std::to_string(hit->id) + " at " + std::to_string(hit->t) : std::string("none");
