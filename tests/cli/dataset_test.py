@@ -95,6 +95,12 @@ class Dataset(ProgramTest):
             self.run_program(scene, *options, "--time", str((3 + view // 2) / 4), "--view", f"{180 * (view % 2)},25", "-o", "alone.png")
             self.assertEqual((self.folder / "alone.png").read_bytes(), picture, view)
 
+    def test_bop_needs_objects_that_do_not_move(self):
+        scene = SOURCE / "scenes/gltf/moving.glb"
+        options = [*SMALL, "--integrator", "flat", "--formats", "bop", "--views", "orbit:2"]
+        self.assertIn("objects that move", self.dataset("--frames", "0:2", "--fps", "2", *options, scene=scene, code=2))
+        self.dataset("--time", "0.5", *options, scene=scene, output="still")
+
     def test_shards_give_the_bytes_of_one_run(self):
         options = ["--views", "hemisphere:7", *SMALL]
         self.dataset(*options)

@@ -84,12 +84,22 @@ void ViewRenderer::load(const DatasetView& view) {
 void ViewRenderer::check_objects() {
   if (!writes(arguments_, DatasetFormat::bop)) return;
   Digest digest;
-  for (const Object& object : scene_->objects) digest.add(object.name + '\n');
+  const auto add = [&](const auto& number) {
+    digest.add({reinterpret_cast<const char*>(&number), sizeof number});
+  };
+  add(scene_->origin);
+  for (const Object& object : scene_->objects) {
+    digest.add(object.name + '\n');
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    for (std::size_t i = 0; mesh != nullptr && i < mesh->positions.size(); ++i)
+      add(mesh->position(i));
+  }
   if (!objects_) objects_ = digest.value();
   if (objects_ != digest.value())
     throw Error(ErrorKind::usage, arguments_.scene,
-                "shows different objects at different times or in variants, but BOP has one list "
-                "of models; write them into data sets of their own");
+                "shows different objects, or objects that move, at different times or in variants, "
+                "but BOP has one list of models in one pose; write them into data sets of their "
+                "own");
 }
 
 Camera ViewRenderer::camera_of(const DatasetView& view, ImageSize size) const {

@@ -60,7 +60,7 @@ class ViewRenderer {
   Warnings& warnings_;
   MemoryBudget memory_;
   std::string variant_;                   ///< of file_
-  std::optional<std::uint64_t> objects_;  ///< digest of the objects' names, for check_objects()
+  std::optional<std::uint64_t> objects_;  ///< digest of the objects, for check_objects()
   std::optional<SceneFile> file_;
   std::optional<DatasetView> loaded_;  ///< the view whose scene is loaded
   std::string environment_source_;     ///< of environment_
