@@ -13,6 +13,12 @@
 namespace microtrace {
 namespace {
 
+/// The result of tossing a coin: 0 or 1.
+float tossed(const World& world, const SampleId& id) {
+  using sampling::hash;
+  return static_cast<float>(hash(hash(hash(world.seed, id.x), id.y), id.index) >> 31U);
+}
+
 /// Returns 1 in columns below 16. Returns 0 or 2 with equal probability in columns 16 to 31, and a
 /// hundredth of that from column 32 on.
 class CoinIntegrator final : public Integrator {
@@ -20,9 +26,7 @@ class CoinIntegrator final : public Integrator {
   void trace(const World& world, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
              std::span<Sample> samples) const override {
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      using sampling::hash;
-      const std::uint32_t key = hash(hash(hash(world.seed, ids[i].x), ids[i].y), ids[i].index);
-      const float coin = (key >> 31U) != 0 ? 2.0F : 0.0F;
+      const float coin = 2 * tossed(world, ids[i]);
       samples[i].color = Vec3(ids[i].x < 16 ? 1 : ids[i].x < 32 ? coin : coin / 100);
       samples[i].alpha = 1;
     }
@@ -66,9 +70,7 @@ class ShadowIntegrator final : public Integrator {
   void trace(const World& world, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
              std::span<Sample> samples) const override {
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      using sampling::hash;
-      const std::uint32_t key = hash(hash(hash(world.seed, ids[i].x), ids[i].y), ids[i].index);
-      samples[i] = {.color = Vec3(0), .alpha = ids[i].x < 24 ? static_cast<float>(key >> 31U) : 0};
+      samples[i] = {.color = Vec3(0), .alpha = ids[i].x < 24 ? tossed(world, ids[i]) : 0};
     }
   }
   [[nodiscard]] bool is_random() const override { return true; }
