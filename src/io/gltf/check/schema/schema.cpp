@@ -223,13 +223,13 @@ class Checker {
       const Element attribute{&member.value, child(at.pointer, member.key)};
       const bool has_name =
           of_instances ? is_instance_attribute_name(member.key) : is_attribute_name(member.key);
-      if (!has_name && is_of_extension(member.key)) {
-        dropped.push_back(member.key);
-      } else if (!has_name) {
-        asset_.tolerate(
-            attribute,
-            "is not a glTF 2.0 attribute, and names of custom attributes begin with _; it "
-            "is ignored");
+      if (!has_name) {
+        if (!is_of_extension(member.key)) {
+          asset_.tolerate(
+              attribute,
+              "is not a glTF 2.0 attribute, and names of custom attributes begin with _; it "
+              "is ignored");
+        }
         dropped.push_back(member.key);
       } else if (is_null(attribute)) {
         dropped.push_back(member.key);
