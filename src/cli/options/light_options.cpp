@@ -86,8 +86,8 @@ constexpr std::array kDisplayOptions{
            .help = "exposure of 8-bit pictures in stops, -64 to 64: radiance is multiplied by "
                    "2^EV; auto, for single pictures and sequences: the exposure nearest to 0 at "
                    "which surfaces are neither blown out nor black",
-           .default_value = "auto for path-traced glTF assets with lights, else 0; for merge, that "
-                            "of the first samples",
+           .default_value = "auto for pictures and sequences of path-traced glTF assets with "
+                            "lights, else 0; for merge, that of the first samples",
            .samples = Samples::keep,
            .words = [] { return std::vector<std::string>{"auto"}; },
            .set = set_exposure},
