@@ -1,8 +1,8 @@
 #include "accel/few_triangles.hpp"
 
+#include "accel/build/wide/wide_tree.hpp"
+
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -14,6 +14,7 @@
 namespace microtrace {
 namespace {
 
+using build::largest_component;
 using Entry = FewTriangles::Entry;
 using Facet = FewTriangles::Facet;
 
@@ -24,11 +25,6 @@ void put(const Vec3& v, float (&to)[3]) {
 Vec3 vertex(const Entry& entry, int k) {
   const float(&v)[3] = entry.vertices[k];
   return {v[0], v[1], v[2]};
-}
-
-template <class Vector>
-auto largest_component(const Vector& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 FewTriangles::Box common_box(const FewTriangles::Box& a, const FewTriangles::Box& b) {
@@ -115,9 +111,7 @@ bool join(const Entry& first, const Entry& second, int number, double most_growt
 }
 
 Entry entry_of(const TriangleBlock& block, std::size_t lane) {
-  const Vec3 a(block.a[0][lane], block.a[1][lane], block.a[2][lane]);
-  const Vec3 b(block.b[0][lane], block.b[1][lane], block.b[2][lane]);
-  const Vec3 c(block.c[0][lane], block.c[1][lane], block.c[2][lane]);
+  const auto [a, b, c] = build::triangle_in(block, lane);
   Entry entry{};
   put(a, entry.vertices[0]);
   put(b, entry.vertices[1]);
@@ -146,7 +140,7 @@ std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree, double most_
   for (std::size_t slot = 0; slot < tree.blocks.size() * kWidth; ++slot) {
     const TriangleBlock& block = tree.blocks[slot / kWidth];
     const std::size_t k = slot % kWidth;
-    if (std::isnan(block.a[0][k])) continue;
+    if (!build::is_used(block, k)) continue;
     const auto known = std::span(result->entries).first(static_cast<std::size_t>(result->count));
     // Large triangles can be in several leaves.
     if (std::ranges::find(known, block.id[k], &Entry::id) != known.end()) continue;

@@ -1,5 +1,6 @@
 #include "queries/locator.hpp"
 
+#include "accel/build/wide/wide_tree.hpp"
 #include "accel/filters/shape_filter.hpp"
 #include "exact/crossing.hpp"
 #include "exact/range.hpp"
@@ -81,7 +82,7 @@ std::optional<Location> Locator::locate_along(const Vec3& p, const Vec3& d, Poll
         poll();
         for (; lanes != 0; lanes &= lanes - 1) {
           const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-          test(block.id[lane], triangle_in(block, lane));
+          test(block.id[lane], build::triangle_in(block, lane));
         }
       },
       [&](PrimitiveId id) {

@@ -1,5 +1,6 @@
 #include "queries/nearest_search.hpp"
 
+#include "accel/build/wide/wide_tree.hpp"
 #include "accel/filters/shape_filter.hpp"
 #include "exact/range.hpp"
 #include "queries/ray_search.hpp"
@@ -106,7 +107,8 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       target_.kernels.triangle_distances(block, &point.x, distances.data());
       for (std::size_t i = 0; i < kWidth; ++i) {
         const bool is_used = block.a[0][i] == block.a[0][i];
-        if (is_used && !(distances[i] > limit_)) consider(block.id[i], triangle_in(block, i), p);
+        if (is_used && !(distances[i] > limit_))
+          consider(block.id[i], build::triangle_in(block, i), p);
       }
     }
   }

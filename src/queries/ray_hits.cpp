@@ -1,3 +1,4 @@
+#include "accel/build/wide/wide_tree.hpp"
 #include "accel/bvh_tree.hpp"
 #include "accel/filters/shape_filter.hpp"
 #include "accel/resolve/exact_hits.hpp"
@@ -106,7 +107,7 @@ class HitFinder {
           for (; lanes != 0; lanes &= lanes - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
             FilterResult filtered{.certainty = Certainty::unsure};
-            if (filterable) filtered = seen_from(ray_.o, triangle_in(block, lane))(d, range);
+            if (filterable) filtered = seen_from(ray_.o, build::triangle_in(block, lane))(d, range);
             add(block.id[lane], filtered);
           }
         },

@@ -55,12 +55,4 @@ void for_each_candidate(const TreeTarget& target, const Ray& ray, const OnBlock&
   }
 }
 
-/// Returns the triangle in a lane of a block. The order of its vertices may differ from the
-/// scene's.
-[[nodiscard]] inline Triangle triangle_in(const TriangleBlock& block, std::size_t lane) {
-  return {.a = {block.a[0][lane], block.a[1][lane], block.a[2][lane]},
-          .b = {block.b[0][lane], block.b[1][lane], block.b[2][lane]},
-          .c = {block.c[0][lane], block.c[1][lane], block.c[2][lane]}};
-}
-
 }  // namespace microtrace

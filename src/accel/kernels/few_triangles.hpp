@@ -35,7 +35,7 @@ class FewTrianglesWalk {
   /// The rays that may hit a triangle.
   struct Candidates {
     Lanes maybe, certain;  ///< as in VolumeTest
-    Lanes unsure;          ///< lanes of `maybe` that may pass through an open front
+    Lanes unsure = 0;      ///< lanes of `maybe` that may pass through an open front
   };
   /// The rays that are being traced, and the bounds of t of their nearest hits so far.
   struct Group {
@@ -110,16 +110,14 @@ class FewTrianglesWalk {
     const Lanes certain = less<N>(error, within) & volumes.with_t();
     const Interval<F> t = interval(volumes.height, size, volumes.height_error, volumes.size_error);
     if (is_triangle) {
-      meet(facet.first, {.maybe = maybe, .certain = certain, .unsure = 0}, t, volumes, group);
+      meet(facet.first, {.maybe = maybe, .certain = certain}, t, volumes, group);
       return;
     }
     const Lanes inside = less<N>(error, diagonal), outside = less<N>(diagonal, -error);
     const Lanes unknown = volumes.without_sign();
-    meet(facet.first,
-         {.maybe = maybe & (~outside | unknown), .certain = certain & inside, .unsure = 0}, t,
+    meet(facet.first, {.maybe = maybe & (~outside | unknown), .certain = certain & inside}, t,
          volumes, group);
-    meet(facet.second,
-         {.maybe = maybe & (~inside | unknown), .certain = certain & outside, .unsure = 0}, t,
+    meet(facet.second, {.maybe = maybe & (~inside | unknown), .certain = certain & outside}, t,
          volumes, group);
   }
 

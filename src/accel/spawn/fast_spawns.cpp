@@ -1,3 +1,4 @@
+#include "accel/build/wide/wide_tree.hpp"
 #include "accel/spawn/box_clearance.hpp"
 #include "accel/spawn/fast_spawn.hpp"
 #include "accel/spawn/origin_search.hpp"
@@ -10,14 +11,6 @@
 
 namespace microtrace {
 namespace {
-
-Triangle triangle_at(const TreeView& tree, std::uint32_t slot) {
-  const TriangleBlock& block = tree.blocks[slot / kWidth];
-  const std::uint32_t i = slot % kWidth;
-  return {.a = {block.a[0][i], block.a[1][i], block.a[2][i]},
-          .b = {block.b[0][i], block.b[1][i], block.b[2][i]},
-          .c = {block.c[0][i], block.c[1][i], block.c[2][i]}};
-}
 
 void put_vector(SpawnFloats (&lanes)[3], std::size_t lane, const Vec3& v) {
   for (int k = 0; k < 3; ++k) lanes[k][lane] = v[k];
@@ -123,7 +116,8 @@ bool FastSpawns::is_alone(std::size_t hit) const {
   const auto is_passed = [&](const std::uint32_t& slot) {
     if (slot == kIdSlot) return is_primitive_passed(queries_.ids[hit][&slot - slots]);
     if (slot >= kOtherSlot) return is_primitive_passed(tree_->others[slot - kOtherSlot]);
-    return clears_box(triangle_at(*tree_, slot), at.p, at.reach);
+    return clears_box(build::triangle_in(tree_->blocks[slot / kWidth], slot % kWidth), at.p,
+                      at.reach);
   };
   return std::all_of(slots, slots + count, is_passed) &&
          std::all_of(outside_.begin(), outside_.end(), is_primitive_passed);
@@ -146,8 +140,10 @@ void FastSpawns::find_points() {
   for (Lanes others = all & ~triangles_; others != 0; others &= others - 1)
     set_query(static_cast<std::size_t>(std::countr_zero(others)));
   queries_.size = static_cast<int>(hits_);
-  std::ranges::fill(queries_.count, 0);
-  if (tree_) kernels_.touching(*tree_, queries_);
+  if (tree_)
+    kernels_.touching(*tree_, queries_);
+  else
+    std::ranges::fill(queries_.count, 0);
   alone_ = known_;
   for (Lanes rest = outside_.empty() ? known_ & crowded() : known_; rest != 0; rest &= rest - 1) {
     if (!is_alone(static_cast<std::size_t>(std::countr_zero(rest)))) alone_ &= ~(rest & -rest);

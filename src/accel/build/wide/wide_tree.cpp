@@ -8,10 +8,6 @@
 namespace microtrace::build {
 namespace {
 
-float largest_component(const Vec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 float squared_length(const Vec3& v) {
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }

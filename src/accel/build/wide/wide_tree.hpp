@@ -7,6 +7,8 @@
 #include <microtrace/hit.hpp>
 #include <microtrace/shape.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace microtrace::build {
@@ -48,6 +50,19 @@ struct LeafEntries {
 void put(TriangleBlock& block, std::size_t slot, PrimitiveId id, const Triangle& triangle);
 [[nodiscard]] inline bool is_used(const TriangleBlock& block, std::size_t slot) {
   return block.a[0][slot] == block.a[0][slot];  // unused slots have NaN
+}
+
+/// Returns the triangle in a slot. The order of its vertices may differ from the scene's.
+[[nodiscard]] inline Triangle triangle_in(const TriangleBlock& block, std::size_t slot) {
+  return {.a = {block.a[0][slot], block.a[1][slot], block.a[2][slot]},
+          .b = {block.b[0][slot], block.b[1][slot], block.b[2][slot]},
+          .c = {block.c[0][slot], block.c[1][slot], block.c[2][slot]}};
+}
+
+/// Returns the largest magnitude of a component.
+template <class Vector>
+[[nodiscard]] auto largest_component(const Vector& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 /// True if two blocks have the same bits for the vertices of all triangles.
