@@ -21,7 +21,7 @@ from viewer import Viewer, read_png, wait_until
 PROGRAM, SOURCE = os.path.abspath(sys.argv[1]), Path(sys.argv[2]).absolute()
 SCENES = SOURCE / "scenes"
 SMALL = ["--size", "64x48", "--spp", "4"]
-FUZZ_SECONDS = float(os.environ.get("MICROTRACE_FUZZ_SECONDS", "60"))
+FUZZ_SECONDS = float(os.environ.get("MICROTRACE_FUZZ_SECONDS", "20"))
 
 
 def run(*arguments, **options):
