@@ -62,6 +62,36 @@ TEST(Furnace, ClearCoat) {
   }
 }
 
+// A coat or a base with a normal map has another normal than the layer beside it nearly everywhere.
+TEST(Furnace, CoatsWithTheirOwnNormal) {
+  struct Turn {
+    double angle, loss;
+  };
+  for (const auto [angle, loss] :
+       {Turn{0.005, 0.004}, Turn{0.05, 0.025}, Turn{0.12, 0.06}, Turn{0.3, 0.2}}) {
+    for (const float roughness : {0.05F, 0.5F}) {
+      const Layers layers{.coat = 1, .coat_roughness = roughness};
+      for (const Parameters& base : {kMetal, kWhite}) {
+        for (const float base_roughness : {0.3F, 0.7F, 0.9F}) {
+          Parameters p = base;
+          p.roughness = base_roughness;
+          for (const double theta : {0.05, 0.5, 0.9}) {
+            for (const double azimuth : {0.3, 1.9, 3.4}) {
+              const double white =
+                  furnace(p, layers, direction(theta, 0.3), 1U << 16U, direction(angle, azimuth)).x;
+              const std::string place = std::to_string(angle) + ' ' + std::to_string(roughness) +
+                                        ' ' + std::to_string(base_roughness) + ' ' +
+                                        std::to_string(theta) + ' ' + std::to_string(azimuth);
+              EXPECT_GT(white, 1 - loss) << place;
+              EXPECT_LT(white, kMost) << place;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Furnace, Sheen) {
   for (const float roughness : {0.3F, 0.6F, 1.0F}) {
     const Layers layers{.sheen = Vec3(1), .sheen_roughness = roughness};

@@ -6,6 +6,7 @@
 #include "render/bsdf/sheen.hpp"
 #include "render/bsdf/surface.hpp"
 
+#include <cmath>
 #include <cstddef>
 
 namespace microtrace::bsdf {
@@ -30,21 +31,25 @@ class Coating {
         coat_(surface.coat_roughness),
         coat_albedo_(coat_),
         coat_frame_(Frame<N>::about(surface.coat_normal)) {
-    const V& n = surface.coat_normal;
-    // A coat with its own normal has its highest transmittance along that normal.
-    const auto is_turned = (coat_weight_ > 0) & ((n.x != 0) | (n.y != 0) | (n.z != 1));
+    // The cosine and sine of the angle between the coat's normal and the shading normal.
     const F one = all<N>(1);
+    const F turn_cos = clamped(coat_weight_ > 0 ? surface.coat_normal.z : one, F{}, one);
+    const F turn_sin = square_root<N>(1 - turn_cos * turn_cos);
     for (int k = 0; k < kNodes; ++k) {
-      const F z = all<N>(kTables.coating_node[k]);
-      node_transmittance_[k] = coat_transmittance(is_turned ? one : z) * sheen_transmittance(z);
+      const float node = kTables.coating_node[k];
+      const F z = all<N>(node);
+      // The coat has its highest transmittance where the angle to its normal is smallest.
+      const F nearest = z * turn_cos + std::sqrt(1 - node * node) * turn_sin;
+      const F coat_z = z > turn_cos ? one : smaller_of(nearest, one);
+      node_transmittance_[k] = coat_transmittance(coat_z) * sheen_transmittance(z);
     }
     // Reduces the tabulated deficit where it is too large: for anisotropic microfacets, and for
     // sheen peaks narrower than the spacing of the nodes.
     F trust = surface.anisotropy > 0 ? all<N>(0.4F) : one;
     const F wide = clamped(F(5 * surface.sheen_roughness - 0.25F), F{}, one);
     trust = greatest_sheen_ > 0 ? trust * wide : trust;
-    // Coats with their own normal are not compensated.
-    trust = is_turned ? F{} : trust;
+    // The tables assume a coat with the shading normal.
+    trust = trust * larger_of(F(1 - kTurnLoss * turn_sin), F{});
     const int rows = kCoatingRows;
     const Cell<N> row(square_root<N>(surface.roughness) * static_cast<float>(rows - 1), rows);
     for (int i = 0; i < kColumns; ++i) {
@@ -93,6 +98,7 @@ class Coating {
 
  private:
   static constexpr int kNodes = kCoatingNodes, kColumns = kCoatingColumns;
+  static constexpr float kTurnLoss = 2;  // coats turned by 30 degrees are not compensated
 
   [[nodiscard]] F coat_transmittance(const F& z) const {
     if (less<N>(F{}, coat_weight_) == 0) return all<N>(1);

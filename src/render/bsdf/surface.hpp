@@ -61,8 +61,7 @@ struct Surface {
     s.sheen_roughness = load<N>(lanes.sheen_roughness + i);
     s.coat = load<N>(lanes.coat + i);
     s.coat_roughness = load<N>(lanes.coat_roughness + i);
-    // If the coat's normal is the shading normal, it must be exactly z despite rounding, because
-    // Coating compensates energy only in this case.
+    // If the coat's normal is the shading normal, it must be exactly z despite rounding.
     const V n = load3<N>(lanes.coat_normal, i);
     const auto is_shading_normal = is_zero(V(n - frame.n));
     s.coat_normal = select3(is_shading_normal, V{F{}, F{}, all<N>(1)}, frame.to_local(n));
