@@ -26,7 +26,7 @@ class Image:
 
     def __init__(self, pixels: npt.ArrayLike, name: str = "") -> None:
         array: npt.NDArray[Any] = np.asarray(pixels)
-        if array.dtype not in (np.uint8, np.uint16):
+        if array.dtype.newbyteorder("=") not in (np.uint8, np.uint16):
             raise TypeError(f"pixels must be uint8 or uint16, not {array.dtype}")
         if array.ndim == 2:
             array = array[:, :, None]

@@ -313,7 +313,8 @@ class PreparedScene:
 def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], tuple[int, ...]]:
     """Returns points as (n, 3), and their leading shape."""
     array = as_numbers(points, "points", 3)
-    return np.ascontiguousarray(array, np.float32).reshape(-1, 3), array.shape[:-1]
+    with np.errstate(over="ignore"):
+        return np.ascontiguousarray(array, np.float32).reshape(-1, 3), array.shape[:-1]
 
 
 def _rays(

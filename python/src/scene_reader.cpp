@@ -67,12 +67,10 @@ class Reader {
   explicit Reader(const nb::handle& source) : source_(source) {}
 
   Scene operator()() {
-    read(source_.attr("origin"), scene_.origin);
-    read(source_.attr("epsilon"), scene_.epsilon);
-    if (const nb::object background = source_.attr("background"); !background.is_none())
-      read(background, scene_.background);
-    field_ = "size";
-    read(source_.attr("size"), scene_.size);
+    read_field("origin", scene_.origin);
+    read_field("epsilon", scene_.epsilon);
+    if (!source_.attr("background").is_none()) read_field("background", scene_.background);
+    read_field("size", scene_.size);
     for (const nb::handle material : source_.attr("materials"))
       materials_.add(material, [&] { read_material(material); });
     for (const nb::handle object : source_.attr("objects")) add_object(object);
@@ -145,6 +143,11 @@ class Reader {
     if (!value.is_none()) read_fields(value, to.emplace());
   }
 
+  template <class T>
+  void read_field(const char* name, T& to) {
+    field_ = name;
+    read(source_.attr(name), to);
+  }
   template <class T>
   void read_fields(const nb::handle& object, T& to) {
     for_each_field(to, [&](const char* name, auto& member) {

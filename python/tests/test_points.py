@@ -83,3 +83,9 @@ def test_nothing():
     assert np.isinf(at.distance).all() and at.object.tolist() == [-1]
     assert prepared.contains([[0, 0, 0]]).tolist() == [False]
     assert np.isnan(at.position).all()
+
+
+@pytest.mark.filterwarnings("error")
+def test_points_beyond_float32_are_outside(ball):
+    assert ball.contains([[1e300, 0, 0]]).tolist() == [False]
+    ball.closest_point([[1e300, 0, 0]])

@@ -239,6 +239,7 @@ def test_images():
     pixels[:] = 0
     assert image.pixels[1, 3].tolist() == [21, 22, 23] and image.name == "checker"
     assert mt.Image(np.zeros((2, 3), np.uint16)).pixels.shape == (2, 3, 1)
+    assert mt.Image(np.full((2, 3), 258, ">u2")).pixels.ravel().tolist() == [258] * 6
     for wrong in (np.zeros((2, 3, 5), np.uint8), np.zeros(3, np.uint8), np.zeros((0, 1), np.uint8)):
         with pytest.raises(ValueError):
             mt.Image(wrong)
@@ -455,3 +456,20 @@ IMAGE = mt.Image(np.zeros((64, 64, 3), np.uint8))
 def _resident() -> int:
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * 4096
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"background": (1, 2)}, "background must have 3 numbers"),
+        ({"epsilon": "x"}, "epsilon has a wrong type"),
+        ({"background": (np.nan, 0, 0)}, "/background"),
+        ({"origin": (0, np.inf, 0)}, "/origin"),
+        ({"epsilon": -1}, "/epsilon"),
+        ({"size": (0, 0)}, "/size/width"),
+        ({"size": (70000, 1)}, "/size/width"),
+    ],
+)
+def test_wrong_numbers_of_a_scene(fields, message):
+    with pytest.raises((ValueError, TypeError, mt.Error), match=message):
+        mt.Scene(**fields).prepare()

@@ -38,7 +38,8 @@ struct Item {
   }
 };
 
-/// An array with one item for each view, or with one item that all views share.
+/// An array with one item for each view, or with one item that all views share. Numbers aren't
+/// shared.
 class Column {
  public:
   /// `shapes` are the accepted shapes of an item.
@@ -48,8 +49,8 @@ class Column {
     for (const Shape& shape : shapes) {
       Shape of_views = shape;
       of_views.insert(of_views.begin(), views);
-      if (array.shape != shape && array.shape != of_views) continue;
       is_shared_ = array.shape == shape && !shape.empty();
+      if (!is_shared_ && array.shape != of_views) continue;
       size_ = 1;
       for (const std::size_t extent : shape) size_ *= extent;
       return;

@@ -117,6 +117,7 @@ class NpzViews(ProgramTest):
                 ({"T": extrinsic(0, 8)}, "T: must have the shape (N, 4, 4) for N views, has (4, 4)"),
                 ({"T": []}, "T: must have the shape (N, 4, 4) for N views, has (0,)"),
                 ({"K": [K] * 3}, "K: must have the shape (2, 3, 3) or (3, 3), has (3, 3, 3)"),
+                ({"time": 1.5}, "time: must have the shape (2,), has ()"),
                 ({"time": [1.0]}, "time: must have the shape (2,), has (1,)"),
                 ({"time": [1.0, -1.0]}, "time[1]: must not be negative"),
                 ({"size": [24, 16.5]}, "size: must be two positive whole numbers"),

@@ -1,14 +1,18 @@
 #include "scene/material_textures.hpp"
 #include "scene/mesh/shared_meshes.hpp"
 #include "scene/validate/check_indices.hpp"
+#include "scene/validate/numbers.hpp"
 #include "scene/validate/validate.hpp"
 
 #include <microtrace/validate.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace microtrace {
@@ -81,6 +85,17 @@ void check_references(const Scene& scene) {
   if (scene.environment) check_environment(*scene.environment);
 }
 
+/// Checks the numbers that belong to the scene itself.
+std::optional<BrokenRule> broken_member(const Scene& scene) {
+  auto size = validate(scene.size);
+  if (size) size->field.insert(0, "size/");
+  constexpr double kDouble = std::numeric_limits<double>::max(),
+                   kFloat = std::numeric_limits<float>::max();
+  return first_of({in_range("origin", scene.origin, -kDouble, kDouble), std::move(size),
+                   in_range("background", scene.background, -kFloat, kFloat),
+                   at_least("epsilon", scene.epsilon, 0)});
+}
+
 }  // namespace
 
 void check_indices(const Scene& scene) {
@@ -106,6 +121,7 @@ void validate(const Scene& scene) {
       refuse(item("objects", i) + "/shape", *broken);
   }
   check_references(scene);
+  if (const auto broken = broken_member(scene)) refuse("", *broken);
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     if (const auto broken = validate(scene.cameras[i].camera))
       refuse(item("cameras", i) + "/camera", *broken);

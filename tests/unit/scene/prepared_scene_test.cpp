@@ -324,5 +324,25 @@ TEST(Validate, RefusesNumbersThatAreNotFinite) {
   EXPECT_THROW(validate(scene), Error);
 }
 
+TEST(Validate, RefusesNumbersOfTheSceneOutOfRange) {
+  const auto refused_at = [](const char* pointer, const auto& change) {
+    Scene scene = furnished();
+    change(scene);
+    try {
+      validate(scene);
+      ADD_FAILURE() << "not refused: " << pointer;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.diagnostic().pointer, pointer);
+    }
+  };
+  const float infinity = std::numeric_limits<float>::infinity();
+  refused_at("/origin", [](Scene& s) { s.origin.y = std::nan(""); });
+  refused_at("/background", [&](Scene& s) { s.background.z = -infinity; });
+  refused_at("/epsilon", [](Scene& s) { s.epsilon = -1; });
+  refused_at("/epsilon", [&](Scene& s) { s.epsilon = infinity; });
+  refused_at("/size/width", [](Scene& s) { s.size.width = 0; });
+  refused_at("/size/height", [](Scene& s) { s.size.height = 65537; });
+}
+
 }  // namespace
 }  // namespace microtrace
