@@ -27,7 +27,8 @@ namespace microtrace::cli {
 
 /// Camera options. At most one of camera, orbit and eye is set.
 struct CameraOptions {
-  std::string camera;  ///< name or index of a scene's camera; empty: the first
+  std::string camera;              ///< name or index of a scene's camera; empty: the first
+  std::string place = "--camera";  ///< what named `camera`, for messages
   std::optional<OrbitView> orbit{};
   std::optional<DVec3> eye{};
   std::optional<DVec3> target{};                 ///< absent: the center of the scene's bounding box

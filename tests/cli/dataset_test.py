@@ -268,7 +268,10 @@ class Dataset(ProgramTest):
                               ({"environment": {"intensity": -1}}, "/views/0/environment/intensity")):
             self.assertIn(message, self.dataset(*self.views(view), code=3))
         self.assertIn("at least one view", self.dataset(*self.views(), code=3))
-        self.assertIn("no camera nobody", self.dataset(*self.views({"camera": "nobody"}), code=2))
+        # A wrong camera is refused before the first view, so the folder takes the corrected list.
+        self.assertIn("--views: view 1: there is no camera nobody",
+                      self.dataset(*self.views({}, {"camera": "nobody"}), code=2, output="corrected"))
+        self.dataset(*self.views({}, {"camera": "0"}), output="corrected")
         for generator in ("orbit:0", "orbit:3,91", "hemisphere:2.5", "random:3,4", "orbit:"):
             self.assertIn("--views: expects", self.dataset("--views", generator, code=2))
         for pattern in ("fixed", "{x}", "../{view}", "/{view}", "{view"):

@@ -82,6 +82,7 @@ Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
   check_names(arguments_, views_);
   renderer_.emplace(arguments_, warnings_);
   renderer_->load(views_.front());  // the same view in all shards, so that the digests agree
+  for (std::uint32_t i = 0; i < views_.size(); ++i) renderer_->check_camera(views_[i], i);
   identity_ = identity_of(arguments_, views_, digest.value(), renderer_->denoiser());
 }
 

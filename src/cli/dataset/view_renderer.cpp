@@ -9,6 +9,7 @@
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace microtrace::cli {
@@ -102,7 +103,12 @@ void ViewRenderer::check_objects() {
                 "own");
 }
 
-Camera ViewRenderer::camera_of(const DatasetView& view, ImageSize size) const {
+void ViewRenderer::check_camera(const DatasetView& view, std::uint32_t index) const {
+  const auto* name = std::get_if<std::string>(&view.camera);
+  if (name != nullptr && !name->empty()) (void)camera_of(view, index, {});
+}
+
+Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, ImageSize size) const {
   if (const auto* camera = std::get_if<Camera>(&view.camera)) return in_scene(*scene_, *camera);
   CameraOptions options = arguments_.camera;
   if (const auto* direction = std::get_if<View>(&view.camera)) {
@@ -111,6 +117,7 @@ Camera ViewRenderer::camera_of(const DatasetView& view, ImageSize size) const {
   } else if (const auto& name = std::get<std::string>(view.camera); !name.empty()) {
     options = {};
     options.camera = name;
+    options.place = "--views: view " + std::to_string(index);
   }
   return choose_camera(*scene_, options, size);
 }
@@ -184,7 +191,7 @@ std::vector<std::string> ViewRenderer::render(const DatasetView& view, std::uint
              is_annotated = is_bop || writes(arguments_, DatasetFormat::coco);
   if (is_annotated) need(Aov::id);
   if (is_bop) need(Aov::depth);
-  const Camera camera = camera_of(view, size);
+  const Camera camera = camera_of(view, index, size);
   Film film = denoiser_ ? denoiser_->render(*prepared_, camera, size, options)
                         : microtrace::render(*prepared_, camera, size, options);
   apply_display(film, arguments_.display);

@@ -39,13 +39,17 @@ class ViewRenderer {
   /// The loaded scene.
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 
+  /// Throws Error (usage) if the loaded scene lacks the camera that view number `index` names.
+  void check_camera(const DatasetView& view, std::uint32_t index) const;
+
   /// Renders a view into files in `folder`, whose subfolders are created. Returns their names,
   /// relative to the folder. Throws Error.
   std::vector<std::string> render(const DatasetView& view, std::uint32_t index,
                                   const std::filesystem::path& folder);
 
  private:
-  [[nodiscard]] Camera camera_of(const DatasetView& view, ImageSize size) const;
+  [[nodiscard]] Camera camera_of(const DatasetView& view, std::uint32_t index,
+                                 ImageSize size) const;
   void load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings);
   /// Throws Error (usage) if BOP is written and the loaded scene has other objects than the first.
   void check_objects();

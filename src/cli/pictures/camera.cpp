@@ -61,7 +61,7 @@ Camera camera_without_options(const Scene& scene, const CameraOptions& options, 
   }
   const auto index = whole_number(wanted);
   if (index && *index < scene.cameras.size()) return scene.cameras[*index].camera;
-  std::string message = "--camera: there is no camera " + wanted + "; the scene has";
+  std::string message = options.place + ": there is no camera " + wanted + "; the scene has";
   if (scene.cameras.empty()) message += " none: omit --camera, or use --view or --eye";
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     message += i == 0 ? " " : ", ";
