@@ -145,6 +145,7 @@ def save(
     tone_map: str,
     denoiser: str,
     channels: dict[str, Array],
+    part: tuple[int, int, int, int],
     path: str | PathLike[str],
     /,
 ) -> None: ...

@@ -78,12 +78,14 @@ class Picture(Mapping[str, Array]):
         denoiser: str = "",
         *,
         is_stack: bool,
+        part: tuple[int, int, int, int],
     ) -> None:
         self._arrays = arrays
         self._is_stack = is_stack
         self._exposure = exposure
         self._tone_map = tone_map
         self._denoiser = denoiser
+        self._part = part  # size of the whole picture, and position of these pixels in it
 
     def __getitem__(self, name: str) -> Array:
         try:
@@ -136,8 +138,8 @@ class Picture(Mapping[str, Array]):
     ) -> None:
         """Writes one picture to .png, .ppm or .exr. The file appears whole or not at all.
 
-        .exr stores color and all other arrays as channels, in the program's layout. Other formats
-        store only the color.
+        .exr stores color and all other arrays as channels, in the program's layout, and the
+        position of a crop in the whole picture. Other formats store only the color.
 
         Raises:
             ValueError: this is a stack of several pictures.
@@ -148,7 +150,7 @@ class Picture(Mapping[str, Array]):
         is_exr = Path(path).suffix.lower() == ".exr"
         rest = {k: v for k, v in self.items() if k != "color"} if is_exr else {}
         settings = self._display(exposure, tone_map)
-        _core.save(self["color"], *settings, self._denoiser, rest, path)
+        _core.save(self["color"], *settings, self._denoiser, rest, self._part, path)
 
     def one(self, index: int) -> Picture:
         """Returns one picture of a stack, by its camera's index. The arrays are views.
@@ -160,7 +162,14 @@ class Picture(Mapping[str, Array]):
         if not self._is_stack:
             raise ValueError("this is a single picture, not a stack")
         arrays = {k: v[index] for k, v in self.items()}
-        return Picture(arrays, self._exposure, self._tone_map, self._denoiser, is_stack=False)
+        return Picture(
+            arrays,
+            self._exposure,
+            self._tone_map,
+            self._denoiser,
+            is_stack=False,
+            part=self._part,
+        )
 
     def _display(self, exposure: float | None, tone_map: str | None) -> tuple[float, str]:
         return (
@@ -341,7 +350,8 @@ def render(
         if array.shape[-1] == 1:
             array = array[..., 0]
         arrays[name] = array if is_stack else array[0]
-    return Picture(arrays, stops, tone_map, denoiser, is_stack=is_stack)
+    part = (*size, *((0, 0) if crop is None else crop[:2]))
+    return Picture(arrays, stops, tone_map, denoiser, is_stack=is_stack, part=part)
 
 
 def _ground_arguments(ground: bool | float, integrator: str) -> dict[str, float | None] | None:

@@ -10,6 +10,7 @@
 #include <microtrace/exposure.hpp>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <mutex>
 #include <nanobind/stl/array.h>
@@ -358,9 +359,12 @@ Film film_of(const Pixels<const float>& color, double exposure, const std::strin
 
 void save(const Pixels<const float>& color, double exposure, const std::string& tone_map,
           const std::string& denoiser, const nb::dict& channels,
-          const std::filesystem::path& path) {
+          const std::array<std::uint32_t, 4>& part, const std::filesystem::path& path) {
   Film film = film_of(color, exposure, tone_map, channels);
   film.denoiser = denoiser;
+  film.whole = {.width = part[0], .height = part[1]};
+  film.x0 = part[2];
+  film.y0 = part[3];
   const nb::gil_scoped_release release;
   save_image(film, path);
 }

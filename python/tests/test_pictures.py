@@ -67,7 +67,12 @@ def test_exr_equals_the_program(program, tmp_path):
     aovs = "depth,distance,position,normal,face_normal,uv,barycentric,albedo,id,variance,samples"
     run(program, MATERIALS, "--samples", 4, "--aov", aovs, "-o", theirs)
     names = aovs.replace("id", "object,primitive,material").split(",")
-    mt.render(mt.load(MATERIALS), size=SIZE, spp=4, aovs=["color", *names]).save(ours)
+    scene = mt.load(MATERIALS).prepare()
+    mt.render(scene, size=SIZE, spp=4, aovs=["color", *names]).save(ours)
+    assert ours.read_bytes() == theirs.read_bytes()
+    # The program stores where a crop is in the whole picture.
+    run(program, MATERIALS, "--samples", 4, "--crop", "5,7,40,31", "-o", theirs)
+    mt.render(scene, size=SIZE, spp=4, crop=(5, 7, 40, 31)).save(ours)
     assert ours.read_bytes() == theirs.read_bytes()
 
 

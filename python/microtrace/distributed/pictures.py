@@ -227,4 +227,5 @@ def render(
         _denoise(arrays, wanted, 0)
     if not is_stack:
         arrays = {name: array[0] for name, array in arrays.items()}
-    return Picture(arrays, *display, denoiser, is_stack=is_stack)
+    part = (width, height, 0, 0)
+    return Picture(arrays, *display, denoiser, is_stack=is_stack, part=part)
