@@ -27,6 +27,13 @@ def as_numbers(values: Any, what: str, width: int) -> Array:
     return array.astype(np.float64)
 
 
+def as_float32(values: npt.ArrayLike) -> npt.NDArray[np.float32]:
+    """Returns a C-contiguous array of rounded numbers. Numbers beyond float32 become infinite,
+    without a warning."""
+    with np.errstate(over="ignore"):
+        return np.ascontiguousarray(values, np.float32)
+
+
 def as_rows(values: Any, what: str, width: int) -> Array:
     """Like as_numbers(), for shape (n, width) and with strides that C++ code can read."""
     shape = np.shape(values)

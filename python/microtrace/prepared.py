@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_numbers, as_threads, readable
+from ._arrays import as_float32, as_numbers, as_threads, readable
 from .errors import warn_caller
 from .hits import AllHits, ClosestPoints, HitField, Hits, output_arrays
 from .viewer import View, words_of
@@ -313,8 +313,7 @@ class PreparedScene:
 def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], tuple[int, ...]]:
     """Returns points as (n, 3), and their leading shape."""
     array = as_numbers(points, "points", 3)
-    with np.errstate(over="ignore"):
-        return np.ascontiguousarray(array, np.float32).reshape(-1, 3), array.shape[:-1]
+    return as_float32(array).reshape(-1, 3), array.shape[:-1]
 
 
 def _rays(
@@ -335,7 +334,6 @@ def _rays(
             each = np.broadcast_to(numbers, shape)
         except ValueError:
             raise ValueError(f"{what} must broadcast to {shape}, not {numbers.shape}") from None
-        with np.errstate(over="ignore"):
-            return np.ascontiguousarray(each, np.float32).reshape(-1)
+        return as_float32(each).reshape(-1)
 
     return flat, shape, end(t_min, "t_min"), end(t_max, "t_max")
