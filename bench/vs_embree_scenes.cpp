@@ -52,7 +52,6 @@ BenchScene field(std::size_t triangles) {
   const Pose pose{.position = {0, 18, 55}, .direction = {0, -0.4, -0.92}};
   BenchScene made = make_scene("field", generated::displaced_sphere(triangles), pose, 40);
   Mesh mesh = std::get<Mesh>(made.scene.objects[0].shape);
-  mesh.triangles.share();
   made.scene.objects.clear();
   for (int i = 0; i < 1000; ++i) {
     const auto number = static_cast<std::uint64_t>(i);

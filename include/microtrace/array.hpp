@@ -4,6 +4,7 @@
 #include <microtrace/error.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -19,14 +20,14 @@
 namespace microtrace {
 
 /// Reads like a `const std::vector<T>` and grows like a vector; edit() gives write access to the
-/// elements. An array either owns its values or borrows memory (see borrow()). Copying an array
-/// copies owned values, as with a vector; a copy of a borrowed array refers to the same memory.
+/// elements. An array either owns its values or borrows memory (see borrow()). Copies of an array
+/// share its values until one of them is changed, which copies the values first.
 ///
 /// T must consist of numbers of one type without padding: Vec2, Vec3, Vec4, or a std::array of
 /// integers.
 ///
-/// Arrays are as thread-safe as std::vector. Borrowed memory must not change while any array that
-/// refers to it is read.
+/// Arrays are as thread-safe as std::vector, also if they share their values. Borrowed memory must
+/// not change while any array that refers to it is read.
 template <class T>
 class Array {
  public:
@@ -40,18 +41,21 @@ class Array {
   using Number = typename T::value_type;  ///< float or std::uint32_t
 
   Array() = default;
-  Array(std::vector<T> values) noexcept : own_(std::move(values)) {}
-  Array(std::initializer_list<T> values) : own_(values) {}
+  Array(std::vector<T> values) : values_(values.empty() ? nullptr : new Values) {
+    if (values_) values_->own = std::move(values);
+  }
+  Array(std::initializer_list<T> values) : Array(std::vector<T>(values)) {}
 
   /// Returns an array that refers to `values` without copying them. The values must not change
   /// while that array or a copy of it exists, including copies inside scenes. `owner` keeps the
   /// memory alive for that time; without an owner, the caller must keep it alive.
   [[nodiscard]] static Array borrow(std::span<const T> values,
-                                    std::shared_ptr<const void> owner = {}) noexcept {
+                                    std::shared_ptr<const void> owner = {}) {
     Array result;
     if (values.empty()) return result;
-    result.view_ = std::shared_ptr<const T>(std::move(owner), values.data());
-    result.view_size_ = values.size();
+    result.values_ = Handle(new Values);
+    result.values_->borrowed = values;
+    result.values_->owner = std::move(owner);
     return result;
   }
 
@@ -86,10 +90,10 @@ class Array {
     return values;
   }
 
-  [[nodiscard]] bool is_borrowed() const noexcept { return view_ != nullptr; }
+  [[nodiscard]] bool is_borrowed() const noexcept { return values_ && values_->is_borrowed(); }
 
-  [[nodiscard]] const T* data() const noexcept { return view_ ? view_.get() : own_.data(); }
-  [[nodiscard]] std::size_t size() const noexcept { return view_ ? view_size_ : own_.size(); }
+  [[nodiscard]] const T* data() const noexcept { return values_ ? values_->all().data() : nullptr; }
+  [[nodiscard]] std::size_t size() const noexcept { return values_ ? values_->all().size() : 0; }
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
   [[nodiscard]] const T* begin() const noexcept { return data(); }
   [[nodiscard]] const T* end() const noexcept { return data() + size(); }
@@ -97,22 +101,19 @@ class Array {
   [[nodiscard]] const T& front() const noexcept { return *begin(); }
   [[nodiscard]] const T& back() const noexcept { return end()[-1]; }
 
-  /// Returns the values as a modifiable vector; the reference is valid until the array is assigned
-  /// to, moved or destroyed. Borrowed values are copied first.
+  /// Returns the values as a modifiable vector. The reference is valid until the array is copied,
+  /// assigned to, moved or destroyed. Values that are borrowed or shared are copied first.
   [[nodiscard]] std::vector<T>& edit() {
-    if (view_) *this = std::vector<T>(begin(), end());
-    return own_;
+    if (!values_ || is_borrowed() || !values_.is_only()) {
+      Handle mine(new Values);
+      mine->own.assign(begin(), end());
+      values_ = std::move(mine);
+    }
+    return values_->own;
   }
 
-  /// Makes later copies of this array share its values instead of copying them.
-  void share() {
-    if (view_) return;
-    const auto owner = std::make_shared<const std::vector<T>>(std::move(own_));
-    *this = borrow(*owner, owner);
-  }
-
-  /// The following functions behave like those of std::vector and copy borrowed values first, as
-  /// edit() does.
+  /// The following functions behave like those of std::vector and copy values that are borrowed or
+  /// shared first, as edit() does.
   void push_back(T value) { edit().push_back(value); }
   template <class... Arguments>
   void emplace_back(Arguments&&... arguments) {
@@ -146,9 +147,46 @@ class Array {
     return static_cast<Number>(value);
   }
 
-  std::vector<T> own_;
-  std::shared_ptr<const T> view_;  ///< the borrowed values; null if own_ holds them
-  std::size_t view_size_ = 0;
+  /// The values of an array and its copies.
+  struct Values {
+    std::vector<T> own;
+    std::span<const T> borrowed;  ///< empty if `own` holds the values
+    std::shared_ptr<const void> owner;
+    std::atomic<std::uint32_t> users{1};  ///< number of arrays
+
+    [[nodiscard]] bool is_borrowed() const noexcept { return !borrowed.empty(); }
+    [[nodiscard]] std::span<const T> all() const noexcept {
+      return is_borrowed() ? borrowed : std::span<const T>(own);
+    }
+  };
+
+  /// A shared pointer of the size of a pointer, since a scene may have millions of arrays.
+  class Handle {
+   public:
+    explicit Handle(Values* values = nullptr) noexcept : values_(values) {}
+    Handle(const Handle& other) noexcept : values_(other.values_) {
+      if (values_ != nullptr) values_->users.fetch_add(1, std::memory_order_relaxed);
+    }
+    Handle(Handle&& other) noexcept : values_(std::exchange(other.values_, nullptr)) {}
+    Handle& operator=(Handle other) noexcept {
+      std::swap(values_, other.values_);
+      return *this;
+    }
+    ~Handle() {
+      if (values_ != nullptr && values_->users.fetch_sub(1, std::memory_order_acq_rel) == 1)
+        delete values_;
+    }
+    [[nodiscard]] bool is_only() const noexcept {
+      return values_->users.load(std::memory_order_acquire) == 1;
+    }
+    explicit operator bool() const noexcept { return values_ != nullptr; }
+    Values* operator->() const noexcept { return values_; }
+
+   private:
+    Values* values_;
+  };
+
+  Handle values_;
 };
 
 }  // namespace microtrace

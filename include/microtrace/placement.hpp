@@ -36,8 +36,8 @@ class MICROTRACE_EXPORT Placement {
   [[nodiscard]] const DVec3& column(int k) const { return columns_[k]; }
 
  private:
+  // A scene may have millions of placements, so they hold only these.
   DVec3 columns_[4];
-  DVec3 normal_columns_[3];  // a positive multiple of the inverse transpose of M
   bool is_mirrored_;
 };
 

@@ -61,10 +61,10 @@ struct Quadric {
 /// A mesh of indexed triangles. Each vertex attribute has a value for every vertex, or its array is
 /// empty. Arrays are made from vectors or borrow the caller's memory, see Array.
 ///
-/// Objects can share the arrays of a mesh and place it differently: an array that borrows memory is
-/// copied without its values, and `placement` transforms the values when they are read. Such an
-/// object is called an instance. All results are those of a mesh with transformed arrays, bit for
-/// bit. Use position(), normal(), tangent() and corners() to read any mesh.
+/// Objects can share the arrays of a mesh and place it differently: copies of arrays share their
+/// values, and `placement` transforms the values when they are read. Such an object is called an
+/// instance. All results are those of a mesh with transformed arrays, bit for bit. Use position(),
+/// normal(), tangent() and corners() to read any mesh.
 struct Mesh {
   Array<Vec3> positions;  ///< in scene coordinates, or in the mesh's own space if it is placed
   /// Indices into positions. Vertices are counterclockwise as seen from the front.
@@ -81,17 +81,6 @@ struct Mesh {
   /// Transforms positions, normals and tangents, and exchanges two corners of each triangle if it
   /// mirrors; null: the arrays are in scene coordinates. A placed mesh must not have segments.
   std::shared_ptr<const Placement> placement{};
-
-  /// Makes later copies of this mesh share its arrays, see Array::share.
-  void share() {
-    positions.share();
-    triangles.share();
-    normals.share();
-    tangents.share();
-    for (Array<Vec2>& set : uv_sets) set.share();
-    colors.share();
-    segments.share();
-  }
 
   /// Returns a vertex in scene coordinates.
   [[nodiscard]] Vec3 position(std::size_t vertex) const {

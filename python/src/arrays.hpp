@@ -22,8 +22,7 @@ template <class T>
 nb::object to_python(const Array<T>& values) {
   using Number = typename Array<T>::Number;
   if (values.empty()) return nb::none();
-  auto shared = std::make_shared<Array<T>>(values);
-  shared->share();
+  auto shared = std::make_shared<const Array<T>>(values);
   const T* data = shared->data();
   remember_owner(data, shared);
   const nb::capsule keeper(new std::shared_ptr<const void>(shared), [](void* p) noexcept {

@@ -243,10 +243,7 @@ class Reader {
 
   /// Returns a mesh whose arrays are shared by all objects with the same Python object.
   Mesh mesh_of(const nb::handle& mesh) {
-    return meshes_[places_of_meshes_.of(mesh, [&] {
-      meshes_.push_back(arrays_of(mesh));
-      meshes_.back().share();
-    })];
+    return meshes_[places_of_meshes_.of(mesh, [&] { meshes_.push_back(arrays_of(mesh)); })];
   }
 
   static Mesh arrays_of(const nb::handle& mesh) {

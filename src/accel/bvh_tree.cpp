@@ -18,19 +18,19 @@ constexpr PrimitiveId kFew = 16;
 
 /// Reserves memory for a build. Releases the previous tree if the budget has no room for both
 /// trees.
-MemoryAccount room_for_build(std::uint64_t count, BvhOptions& options) {
+MemoryAccount room_for_build(std::uint64_t bytes, BvhOptions& options) {
   if (options.previous) {
     try {
-      return temporary_memory(count * kBytesOfPrimitive, kTreeMemory);
+      return temporary_memory(bytes, kTreeMemory);
     } catch (const Error&) {
       options.previous.reset();
     }
   }
-  return temporary_memory(count * kBytesOfPrimitive, kTreeMemory);
+  return temporary_memory(bytes, kTreeMemory);
 }
 
 Tree make_tree(const Primitives& primitives, BvhOptions& options) {
-  const MemoryAccount room = room_for_build(build::stored_primitives(primitives), options);
+  const MemoryAccount room = room_for_build(build::memory_to_build(primitives), options);
   BuildOptions build{.fast = options.fast_build,
                      .threads = options.threads,
                      .max_cost_growth = options.max_cost_growth,

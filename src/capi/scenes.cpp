@@ -194,10 +194,7 @@ mt_status mt_scene_from_instances(const mt_mesh* meshes, size_t mesh_count,
     require(scene, "scene");
     std::vector<capi::ColoredMesh> shared = capi::meshes_of(meshes, mesh_count);
     LoadedScene loaded;
-    for (auto& [mesh, material] : shared) {
-      mesh.share();
-      loaded.scene.materials.push_back(std::move(material));
-    }
+    for (auto& [mesh, material] : shared) loaded.scene.materials.push_back(std::move(material));
     loaded.scene.objects.reserve(instance_count);
     for (std::size_t i = 0; i < instance_count; ++i) {
       const mt_instance& instance = instances[i];

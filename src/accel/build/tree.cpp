@@ -73,8 +73,10 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   tree.area = references.area;
   set_points_apart(references.bounded);
   if (!options.fast) presplit(references.bounded, primitives);
+  references.bounded.reserve(references.bounded.size() + boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i)
     references.bounded.emplace_back(boxes[i], static_cast<PrimitiveId>(i), kInstanceWeight);
+  boxes = {};
   BinaryTree binary = build_binary_tree(std::move(references.bounded),
                                         options.fast ? kBinsForPreview : kMaxBins, pool);
   if (binary.ids.empty()) {

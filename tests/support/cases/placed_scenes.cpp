@@ -78,7 +78,6 @@ Mesh shared_mesh(Random& random) {
   } else {
     mesh = std::get<Mesh>(random_scene(random).objects.front().shape);
   }
-  mesh.share();
   return mesh;
 }
 

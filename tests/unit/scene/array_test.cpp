@@ -7,11 +7,13 @@
 #include <microtrace/validate.hpp>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -82,17 +84,45 @@ TEST(ArrayTest, KeepsTheOwnerOfItsMemoryAsLongAsItRefersToIt) {
   EXPECT_EQ(copy.back(), kPoints[0]);
 }
 
-TEST(ArrayTest, SharesValuesWithCopies) {
+TEST(ArrayTest, SharesValuesWithCopiesUntilOneIsEdited) {
   Array<Vec3> a = kPoints;
   const void* const there = address(a);
-  a.share();
   Array<Vec3> copy = a;
-  EXPECT_EQ(address(a), there);
   EXPECT_EQ(address(copy), there);
   a.edit()[0].x = 5;
-  EXPECT_EQ(copy, kPoints);
-  copy.share();
   EXPECT_EQ(address(copy), there);
+  EXPECT_EQ(copy, kPoints);
+  EXPECT_EQ(a[0].x, 5);
+  EXPECT_EQ(a[1], kPoints[1]);
+  copy.edit()[0].x = 6;  // shared with none by now
+  EXPECT_EQ(address(copy), there);
+  EXPECT_EQ(a[0].x, 5);
+  Array<Vec3> none;
+  none.reserve(4);
+  const Array<Vec3> also_none = none;
+  none.push_back(kPoints[0]);
+  EXPECT_EQ(none.size(), 1U);
+  EXPECT_TRUE(also_none.empty());
+}
+
+TEST(ArrayTest, ThreadsEditCopiesOfTheirOwn) {
+  const Array<Vec3> a = kPoints;
+  std::vector<std::thread> threads;
+  std::atomic<int> right = 0;
+  for (int i = 1; i <= 4; ++i) {
+    threads.emplace_back([copy = a, i, &right]() mutable {
+      for (int round = 0; round < 1000; ++round) {
+        const Array<Vec3> other = copy;
+        copy.edit()[0].x = static_cast<float>(1000 * i + round);
+        copy.push_back(other[0]);
+        const float before = round == 0 ? 0 : static_cast<float>(1000 * i + round - 1);
+        if (copy.back().x == before) ++right;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(right, 4000);
+  EXPECT_EQ(a, kPoints);
 }
 
 TEST(ArrayTest, UsesArraysOfTheRightLayoutInPlace) {

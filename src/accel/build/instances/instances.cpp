@@ -5,6 +5,8 @@
 
 #include <microtrace/error.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <unordered_map>
 #include <unordered_set>
@@ -12,6 +14,10 @@
 
 namespace microtrace::build {
 namespace {
+
+/// Upper bound of the memory for an instance: itself, its box, two references, two nodes of the
+/// binary tree, and its part of a node of the finished tree.
+constexpr std::uint64_t kBytesOfInstance = sizeof(Instance) + 304;
 
 const Mesh* placed_mesh(const Object& object) {
   const auto* mesh = std::get_if<Mesh>(&object.shape);
@@ -33,6 +39,10 @@ std::vector<bool> find_instances(const Primitives& primitives, const BuildOption
   const std::vector<Object>& objects = primitives.scene().objects;
   std::vector<bool> is_instance(objects.size());
   std::unordered_map<MeshKey, const OwnedMeshTree*, MeshKey::Hash> trees;
+  const auto placed = static_cast<std::size_t>(std::ranges::count_if(
+      objects, [](const Object& object) { return placed_mesh(object) != nullptr; }));
+  tree.instances.reserve(placed);
+  boxes.reserve(placed);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Mesh* const mesh = placed_mesh(objects[i]);
     if (mesh == nullptr) continue;
@@ -42,28 +52,27 @@ std::vector<bool> find_instances(const Primitives& primitives, const BuildOption
       is_instance[i] = true;  // has no triangles with finite vertices
       continue;
     }
-    const auto placed = make_instance(*own, *mesh, primitives.first_id_of(i));
-    if (!placed) continue;
+    const auto made = make_instance(*own, *mesh, primitives.first_id_of(i));
+    if (!made) continue;
     is_instance[i] = true;
-    tree.instances.push_back(placed->instance);
-    boxes.push_back(placed->box);
+    tree.instances.push_back(made->instance);
+    boxes.push_back(made->box);
   }
   if (tree.instances.size() > child_ref::kMaxInstances)
     throw Error(ErrorKind::limit, "", "the scene has more than 2^30 instances; leave some out");
   return is_instance;
 }
 
-std::uint64_t stored_primitives(const Primitives& primitives) {
-  std::uint64_t count = 0;
+std::uint64_t memory_to_build(const Primitives& primitives) {
+  std::uint64_t bytes = 0;
   std::unordered_set<MeshKey, MeshKey::Hash> known;
   for (const Object& object : primitives.scene().objects) {
     const Mesh* const mesh = placed_mesh(object);
     if (mesh == nullptr || known.insert(MeshKey(*mesh)).second)
-      count += primitive_count(object.shape);
-    else
-      ++count;
+      bytes += primitive_count(object.shape) * kBytesOfPrimitive;
+    if (mesh != nullptr) bytes += kBytesOfInstance;
   }
-  return count;
+  return bytes;
 }
 
 }  // namespace microtrace::build

@@ -17,8 +17,8 @@ namespace microtrace::build {
                                                const BuildOptions& options, Tree& tree,
                                                std::vector<Box>& boxes);
 
-/// Returns the number of primitives of a tree if each shared mesh counts once, unless
+/// Returns an upper bound of the memory of a build, in which each shared mesh counts once, unless
 /// make_instance() refuses placements.
-[[nodiscard]] std::uint64_t stored_primitives(const Primitives& primitives);
+[[nodiscard]] std::uint64_t memory_to_build(const Primitives& primitives);
 
 }  // namespace microtrace::build

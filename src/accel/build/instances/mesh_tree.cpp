@@ -23,12 +23,8 @@ constexpr double kGreatestScale = 0x1p16;
 /// Returns a mesh with the same triangles as a scene of its own.
 Scene scene_of(const Mesh& mesh) {
   Scene scene;
-  Mesh shared;
-  // The scene exists only as long as the caller's mesh.
-  shared.positions = Array<Vec3>::borrow({mesh.positions.data(), mesh.positions.size()});
-  shared.triangles =
-      decltype(mesh.triangles)::borrow({mesh.triangles.data(), mesh.triangles.size()});
-  scene.objects.push_back({.name = {}, .shape = std::move(shared)});
+  scene.objects.push_back(
+      {.name = {}, .shape = Mesh{.positions = mesh.positions, .triangles = mesh.triangles}});
   return scene;
 }
 
@@ -89,16 +85,13 @@ OwnedMeshTree::OwnedMeshTree(const Mesh& mesh, const BuildOptions& options)
            .blocks = tree.blocks.data(),
            .others = tree.others.data(),
            .root = tree.root,
-           .triangles = static_cast<std::uint32_t>(mesh.triangles.size())} {
-  if (!mesh.positions.is_borrowed() || !mesh.triangles.is_borrowed()) return;
-  positions = mesh.positions;
-  triangles = mesh.triangles;
-}
+           .triangles = static_cast<std::uint32_t>(mesh.triangles.size())},
+      positions(mesh.positions),
+      triangles(mesh.triangles) {}
 
 bool OwnedMeshTree::is_of(const Mesh& mesh) const {
-  return !positions.empty() && positions.data() == mesh.positions.data() &&
-         positions.size() == mesh.positions.size() && triangles.data() == mesh.triangles.data() &&
-         triangles.size() == mesh.triangles.size();
+  return positions.data() == mesh.positions.data() && positions.size() == mesh.positions.size() &&
+         triangles.data() == mesh.triangles.data() && triangles.size() == mesh.triangles.size();
 }
 
 std::optional<build::PlacedInstance> build::make_instance(const OwnedMeshTree& tree,

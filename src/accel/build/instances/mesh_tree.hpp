@@ -16,8 +16,7 @@ namespace microtrace {
 struct OwnedMeshTree {
   Tree tree;
   MeshTree view{};  ///< refers to `tree`
-  /// The arrays of the mesh, if they are shared, so that their addresses identify the mesh as long
-  /// as this object exists.
+  /// The arrays of the mesh. Their addresses identify it as long as this object exists.
   Array<Vec3> positions;
   Array<std::array<std::uint32_t, 3>> triangles;
 

@@ -109,7 +109,6 @@ class SurfaceMaker {
     const bool has_normals = primitive.attributes.contains("NORMAL");
     if (!result.mesh.segments.empty() && !has_normals) result.material = unlit(result.material);
     for (const Vec3& p : result.mesh.positions) result.box.add(DVec3(p));
-    result.mesh.share();  // between the objects of all nodes with this mesh
     return result;
   }
 

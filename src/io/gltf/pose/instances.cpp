@@ -17,6 +17,10 @@ namespace {
 
 constexpr glm::dvec4 no_turn(0, 0, 0, 1);
 
+double length_of(const glm::dvec4& quaternion) {
+  return std::sqrt(glm::dot(quaternion, quaternion));
+}
+
 class Maker {
  public:
   Maker(Asset& asset, const Model& model, AccessorReader& reader, const Element& at)
@@ -24,7 +28,7 @@ class Maker {
 
   /// Makes the transforms of the instances. Returns nothing, with a warning, if an attribute's
   /// buffer has no data.
-  std::optional<std::vector<DMat4>> make(std::size_t most) {
+  std::optional<InstanceTransforms> make(std::size_t most) {
     std::optional<std::size_t> count;
     for (const JsonMember& member : attributes_.value->members) {
       const std::size_t accessor = index(asset_, attributes_, member.key, model_.accessors.size());
@@ -41,18 +45,14 @@ class Maker {
       asset_.fail(attributes_, "brings the asset to more than 2^22 instances, the limit",
                   ErrorKind::limit);
     }
-    const auto translations = read<Vec3>("TRANSLATION", ElementType::vec3, false);
-    const auto rotations = read<glm::vec4>("ROTATION", ElementType::vec4, true);
-    const auto scales = read<Vec3>("SCALE", ElementType::vec3, false);
+    InstanceTransforms::Attributes result{
+        .count = *count,
+        .translations = read<Vec3>("TRANSLATION", ElementType::vec3, false),
+        .rotations = read<glm::vec4>("ROTATION", ElementType::vec4, true),
+        .scales = read<Vec3>("SCALE", ElementType::vec3, false)};
     if (lacks_data_) return std::nullopt;
-    take_memory(*count * sizeof(DMat4), "the transforms of instances");
-    std::vector<DMat4> result(*count, DMat4(1));
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      result[i] = composed(translations.empty() ? DVec3(0) : DVec3(translations[i]),
-                           rotations.empty() ? no_turn : rotation(glm::dvec4(rotations[i])),
-                           scales.empty() ? DVec3(1) : DVec3(scales[i]));
-    }
-    return result;
+    for (const glm::vec4& rotation : result.rotations) check(glm::dvec4(rotation));
+    return InstanceTransforms(std::move(result));
   }
 
  private:
@@ -77,16 +77,14 @@ class Maker {
     return {};
   }
 
-  /// Normalizes the quaternion.
-  glm::dvec4 rotation(const glm::dvec4& quaternion) {
-    const double length = std::sqrt(glm::dot(quaternion, quaternion));
+  void check(const glm::dvec4& quaternion) {
+    const double length = length_of(quaternion);
     // Bytes represent unit quaternions to about 0.02.
     if (length > 0 && std::abs(length - 1) > 0.02)
       asset_.tolerate(attributes_.member("ROTATION"),
                       "has quaternions that are not of unit length, which are normalized");
-    if (length > 0) return quaternion / length;
-    asset_.tolerate(attributes_.member("ROTATION"), "has zero quaternions, which are ignored");
-    return no_turn;
+    if (!(length > 0))
+      asset_.tolerate(attributes_.member("ROTATION"), "has zero quaternions, which are ignored");
   }
 
   Asset& asset_;
@@ -97,6 +95,15 @@ class Maker {
 };
 
 }  // namespace
+
+DMat4 InstanceTransforms::operator[](std::size_t instance) const {
+  const auto& [count, translations, rotations, scales] = attributes_;
+  const glm::dvec4 turn = rotations.empty() ? no_turn : glm::dvec4(rotations[instance]);
+  const double length = length_of(turn);
+  return composed(translations.empty() ? DVec3(0) : DVec3(translations[instance]),
+                  length > 0 ? turn / length : no_turn,
+                  scales.empty() ? DVec3(1) : DVec3(scales[instance]));
+}
 
 Instances::Instances(Asset& asset, const Model& model, AccessorReader& reader) {
   std::size_t left = kMaxInstances;
@@ -113,7 +120,7 @@ Instances::Instances(Asset& asset, const Model& model, AccessorReader& reader) {
   }
 }
 
-const std::vector<DMat4>* Instances::of(std::size_t node) const {
+const InstanceTransforms* Instances::of(std::size_t node) const {
   const auto found = node_from_instance_.find(node);
   return found != node_from_instance_.end() ? &found->second : nullptr;
 }

@@ -157,20 +157,6 @@ DMat4 composed(const DVec3& translation, const glm::dvec4& rotation, const DVec3
   return result;
 }
 
-std::string UniqueNames::make(const std::string& name) {
-  const auto first = uses_.find(std::string_view(name));
-  if (first == uses_.end()) {
-    uses_.emplace(name, 1);
-    return name;
-  }
-  std::size_t& use = first->second;  // the reference stays valid when names are inserted
-  std::string result;
-  do {
-    result = name + " (" + std::to_string(++use) + ")";
-  } while (!uses_.emplace(result, 1).second);
-  return result;
-}
-
 std::string head(std::string_view text, std::size_t size) {
   if (text.size() <= size) return std::string(text);
   while (size > 0 && !starts_character(text[size])) --size;

@@ -9,12 +9,9 @@
 #include <microtrace/math.hpp>
 
 #include <cstddef>
-#include <functional>
-#include <memory_resource>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace microtrace::io::gltf {
@@ -61,26 +58,6 @@ class NodeTree {
   const Model& model_;
   std::vector<std::optional<std::size_t>> parents_;  // parent of each node; nothing for roots
   std::vector<DMat4> parent_from_node_;
-};
-
-/// Makes names unique. For example, the second "Cube" becomes "Cube (2)".
-class UniqueNames {
- public:
-  [[nodiscard]] std::string make(const std::string& name);
-  void reserve(std::size_t names) { uses_.reserve(names); }
-
- private:
-  struct Hash {
-    using is_transparent = void;
-    // Not noexcept, so that libstdc++ stores the hashes. This avoids most string comparisons.
-    std::size_t operator()(std::string_view name) const {
-      return std::hash<std::string_view>{}(name);
-    }
-  };
-
-  // Memory for the names of possibly millions of instances. The arena frees them all at once.
-  std::pmr::monotonic_buffer_resource memory_;
-  std::pmr::unordered_map<std::pmr::string, std::size_t, Hash, std::equal_to<>> uses_{&memory_};
 };
 
 /// Returns at most `size` bytes from the start of UTF-8 text. Never splits a character.

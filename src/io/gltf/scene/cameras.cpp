@@ -1,6 +1,7 @@
 #include "io/gltf/scene/cameras.hpp"
 
 #include "io/gltf/document/properties.hpp"
+#include "io/gltf/scene/unique_names.hpp"
 
 #include <cmath>
 #include <optional>
@@ -45,7 +46,6 @@ Camera camera_of(const JsonValue& camera, const Pose& pose) {
 
 std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root, const Model& model,
                                       const NodeTree& tree, const std::vector<PlacedNode>& nodes) {
-  UniqueNames names;
   std::vector<NamedCamera> result;
   for (const PlacedNode& placed : nodes) {
     const std::optional<std::size_t> index = model.nodes[placed.node].camera;
@@ -59,9 +59,10 @@ std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root, const
     const JsonValue& camera = root.find("cameras")->items[*index];
     const std::string own = name_of(camera);
     const bool named = !model.nodes[placed.node].name.empty() || own.empty();
-    result.push_back({.name = names.make(named ? tree.name(placed.node) : head(own, 64)),
+    result.push_back({.name = named ? tree.name(placed.node) : head(own, 64),
                       .camera = camera_of(camera, *pose)});
   }
+  make_names_unique(result);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "io/gltf/document/extension.hpp"
 #include "io/gltf/document/properties.hpp"
+#include "io/gltf/scene/unique_names.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -76,7 +77,6 @@ std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Mod
   const std::optional<Element> all = extension(root, kExtensionName);
   if (!all) return result;
   const Element lights = all->member("lights");
-  UniqueNames names;
   for (const PlacedNode& node : nodes) {
     const auto reference = extension(asset.element("nodes", node.node), kExtensionName);
     if (!reference || !node.visible) continue;
@@ -90,9 +90,10 @@ std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Mod
     }
     const JsonValue* own = light.value->find("name");
     const bool named = !model.nodes[node.node].name.empty() || own == nullptr;
-    result.push_back({.name = names.make(named ? tree.name(node.node) : head(own->string, 64)),
-                      .light = *in_world});
+    result.push_back(
+        {.name = named ? tree.name(node.node) : head(own->string, 64), .light = *in_world});
   }
+  make_names_unique(result);
   return result;
 }
 

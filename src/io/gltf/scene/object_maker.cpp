@@ -26,8 +26,12 @@ bool is_finite(const Mesh& mesh) {
 /// copies need less than about 150 MB, and rays through copies take less time.
 constexpr std::size_t kMostCopied = std::size_t{1} << 20;
 
-/// The size of an object and its name, including the name's copy in UniqueNames.
-constexpr std::size_t kBytesOfObject = sizeof(Object) + 512;
+/// The size of an object, its placement, what its name has besides the path, and what
+/// make_names_unique() needs for it.
+constexpr std::size_t kBytesOfObject = sizeof(Object) + sizeof(Placement) + 128;
+
+/// Number of placements in an allocation.
+constexpr std::size_t kPlacementsOfBlock = 64;
 
 }  // namespace
 
@@ -35,7 +39,7 @@ template <class F>
 void ObjectMaker::for_each_drawn(const std::vector<PlacedNode>& nodes, const F& f) const {
   for (const PlacedNode& placed : nodes) {
     if (!model_.nodes[placed.node].mesh || !placed.visible) continue;
-    const std::vector<DMat4>* instances = instances_.of(placed.node);
+    const InstanceTransforms* instances = instances_.of(placed.node);
     f(placed, instances != nullptr ? instances->size() : 1);
   }
 }
@@ -68,8 +72,8 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
   for_each_drawn(nodes, [&](const PlacedNode& placed, std::size_t times) {
     const std::size_t mesh = *model_.nodes[placed.node].mesh;
     objects += times * surfaces_[mesh].size();
+    bytes += times * surfaces_[mesh].size() * (kBytesOfObject + tree_.path(placed.node).size());
     for (const Surface& surface : surfaces_[mesh]) {
-      bytes += times * kBytesOfObject;
       primitives += times * sharing_.copies * surface.mesh.triangles.size();
       if (is_shared(placed.node, surface)) continue;
       const std::size_t segments = surface.mesh.segments.size();  // drawn as quadrilaterals
@@ -91,13 +95,12 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
   });
   take_memory(bytes, "the meshes of the scene with all instances");
   objects_.reserve(objects);
-  names_.reserve(objects);
 }
 
 void ObjectMaker::add_mesh(const PlacedNode& placed) {
   if (!model_.nodes[placed.node].mesh || !placed.visible) return;
   const std::string path = tree_.path(placed.node);
-  const std::vector<DMat4>* instances = instances_.of(placed.node);
+  const InstanceTransforms* instances = instances_.of(placed.node);
   if (instances != nullptr && poser_.has_skin(placed.node)) {
     asset_.warn(asset_.element("nodes", placed.node),
                 "has instances of a skinned mesh, which its joints place alike; one is drawn");
@@ -113,12 +116,12 @@ void ObjectMaker::add_mesh(const PlacedNode& placed) {
 void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
                            const std::string& path) {
   const std::size_t index = *model_.nodes[node].mesh;
-  std::shared_ptr<const Placement> placement;
+  std::shared_ptr<const Placement> placement;  // of all surfaces
   for (const Surface& surface : surfaces_[index]) {
     Mesh world;
     bool has_all = true;
     if (is_shared(node, surface)) {
-      if (!placement) placement = std::make_shared<const Placement>(world_from_mesh);
+      if (!placement) placement = placed(world_from_mesh);
       world = surface.mesh;
       world.placement = placement;
       has_all = is_finite(surface, *placement);
@@ -131,10 +134,18 @@ void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
                   "has vertices that are not finite in the world; triangles with them are not "
                   "drawn");
     }
-    objects_.push_back({.name = names_.make(name(path, index, surface)),
+    objects_.push_back({.name = name(path, index, surface),
                         .shape = std::move(world),
                         .material = surface.material});
   }
+}
+
+std::shared_ptr<const Placement> ObjectMaker::placed(const DMat4& world_from_mesh) {
+  if (!placements_ || placements_->size() == kPlacementsOfBlock) {
+    placements_ = std::make_shared<std::vector<Placement>>();
+    placements_->reserve(kPlacementsOfBlock);
+  }
+  return {placements_, &placements_->emplace_back(world_from_mesh)};
 }
 
 Mesh ObjectMaker::posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh) {

@@ -7,10 +7,12 @@
 #include "io/gltf/pose/instances.hpp"
 #include "io/gltf/pose/nodes.hpp"
 #include "io/gltf/pose/posing.hpp"
+#include "io/gltf/scene/unique_names.hpp"
 
 #include <microtrace/io.hpp>
 #include <microtrace/scene.hpp>
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,7 +46,11 @@ class ObjectMaker {
   /// Adds an object for each surface of the node's mesh, if the node has a mesh and is visible.
   void add_mesh(const PlacedNode& placed);
 
-  [[nodiscard]] std::vector<Object> take() { return std::move(objects_); }
+  /// Returns the objects, which have unique names.
+  [[nodiscard]] std::vector<Object> take() {
+    make_names_unique(objects_);
+    return std::move(objects_);
+  }
 
  private:
   /// Calls f(placed node, number of its instances) for each node whose mesh is drawn.
@@ -55,6 +61,7 @@ class ObjectMaker {
   [[nodiscard]] bool is_shared(std::size_t node, const Surface& surface) const;
 
   void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::string& path);
+  [[nodiscard]] std::shared_ptr<const Placement> placed(const DMat4& world_from_mesh);
   [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);
   [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const;
   [[nodiscard]] std::string name(const std::string& path, std::size_t mesh,
@@ -69,7 +76,7 @@ class ObjectMaker {
   Sharing sharing_;
   std::vector<std::size_t> uses_;  // number of times that each mesh is drawn
   std::vector<Object> objects_;
-  UniqueNames names_;
+  std::shared_ptr<std::vector<Placement>> placements_;  // the latest block
 };
 
 }  // namespace microtrace::io::gltf

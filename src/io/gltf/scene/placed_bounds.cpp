@@ -36,9 +36,9 @@ PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
       all.add(box.high);
       continue;
     }
-    if (const std::vector<DMat4>* each = instances.of(placed.node)) {
-      for (const DMat4& instance : *each)
-        add_corners(box, placed.world_from_node * instance, result);
+    if (const InstanceTransforms* each = instances.of(placed.node)) {
+      for (std::size_t i = 0; i < each->size(); ++i)
+        add_corners(box, placed.world_from_node * (*each)[i], result);
     } else {
       add_corners(box, placed.world_from_node, result);
     }
