@@ -261,6 +261,16 @@ class Dataset(ProgramTest):
         self.dataset("--views", "orbit:2", *SMALL, "--instances", "copy", "--allow-path", ".", "-t", "1")
         self.assertEqual(self.contents(), whole)
 
+    def test_files_of_other_folders_are_read_again(self):
+        mesh = {"type": "mesh", "file": "link.glb"}
+        scene = {"version": 1, "objects": [mesh]}
+        (self.folder / "asset").mkdir()
+        (self.folder / "asset/scene.json").write_text(json.dumps(scene))
+        (self.folder / "asset/link.glb").symlink_to(SOURCE / "scenes/gltf/cube.glb")
+        allowed = ["--views", "orbit:2", *SMALL, "--allow-path", SOURCE / "scenes"]
+        self.dataset(*allowed, scene="asset/scene.json")
+        self.assertIn("2 views rendered again: the same", self.verify("--redraw", "2"))
+
     def test_wrong_views(self):
         for view, message in (({"camera": {"type": "fish"}}, "fish"), ({"time": -1}, "/views/0/time"),
                               ({"name": "../x"}, "/views/0/name"), ({"sizes": 1}, "sizes"),

@@ -240,6 +240,16 @@ class Pictures(unittest.TestCase):
                         self.assertEqual(saved.body, expected)
                         self.assertIn(f'filename="{Path(scene).stem}.png"', saved.headers["Content-Disposition"])
 
+    def test_options_of_the_command_line_are_those_of_the_first_picture(self):
+        # The value of --ground may be omitted, so it can't be a word of its own.
+        for options in (["--ground"], ["--ground=-0.7", "--env", "studio"], ["--exposure", "-1"], ["--eye", "-3,2,9"]):
+            with self.subTest(options=options), Viewer(PROGRAM, SCENES / "gltf/cube.glb", *SMALL, *options) as viewer:
+                words = viewer.request("POST", "scene?scene=0", "").json["words"]
+                expected = self.program_picture(SCENES / "gltf/cube.glb", [*SMALL, *options])
+                last = viewer.draw(words, viewer.open())[-1]
+                self.assertEqual(last.headers["Content-Type"], "image/png", last.body)
+                self.assertEqual(read_png(last.body), read_png(expected))
+
     def test_exr_with_channels(self):
         words = [*SMALL, "--aov", "depth,id"]
         with Viewer(PROGRAM, SCENES / "gltf/cube.glb") as viewer:

@@ -44,17 +44,12 @@ ViewRenderer::ViewRenderer(Arguments& arguments, Warnings& warnings)
 }
 
 void ViewRenderer::load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings) {
+  const std::string source = view.environment.value_or("");
+  if (environment_ && environment_source_ == source) return;
   EnvironmentOptions options = arguments_.environment;
-  if (view.environment) {
-    if (environment_ && environment_source_ == *view.environment) return;
-    options.source = parse_environment({.option = "--env", .text = *view.environment});
-    environment_source_ = *view.environment;
-  } else if (environment_ && environment_source_.empty()) {
-    return;
-  } else {
-    environment_source_.clear();
-  }
+  if (view.environment) options.source = parse_environment({.option = "--env", .text = source});
   environment_ = cli::load_environment(options, warnings, memory_);
+  environment_source_ = source;
 }
 
 void ViewRenderer::load(const DatasetView& view) {

@@ -122,10 +122,11 @@ bool is_of_run(const Option& option) {
 }
 
 /// Sets the identity of a data set: all options but those that change only where and how the
-/// program runs and reads the scene.
+/// program runs and reads the scene. The command line also has --allow-path, without which the
+/// scene can't be read again.
 void identify_dataset(const std::vector<Given>& given, DatasetOptions& dataset) {
   for (const auto& [option, values] : given) {
-    constexpr std::array kNotOfFiles = {"--output", "--shard", "--instances", "--allow-path"};
+    constexpr std::array kNotOfFiles = {"--output", "--shard", "--instances"};
     if (std::ranges::find(kNotOfFiles, option->name()) != kNotOfFiles.end()) continue;
     if (is_of_run(*option)) continue;
     for (const std::string& value : values) {
@@ -133,7 +134,8 @@ void identify_dataset(const std::vector<Given>& given, DatasetOptions& dataset) 
       if (!option->is_positional()) {
         argument = option->name();
         if (!option->metavar.empty()) argument.append("=").append(value);
-        dataset.identity.append(dataset.identity.empty() ? "" : " ").append(argument);
+        if (option->name() != "--allow-path")
+          dataset.identity.append(dataset.identity.empty() ? "" : " ").append(argument);
       }
       dataset.command_line.push_back(std::move(argument));
     }
@@ -147,7 +149,11 @@ std::vector<std::string> picture_words(const std::vector<Given>& given) {
     if (is_of_run(*option) || is_of(*option, view_options())) continue;
     for (const std::string& value : values) {
       words.emplace_back(option->name());
-      if (!option->metavar.empty()) words.push_back(value);
+      // A value that may be omitted can't be a word of its own.
+      if (!option->implied_value.empty())
+        words.back().append("=").append(value);
+      else if (!option->metavar.empty())
+        words.push_back(value);
     }
   }
   return words;

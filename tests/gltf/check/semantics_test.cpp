@@ -95,6 +95,7 @@ const Change kSurvivedChanges[] = {
     {"/meshes/0/primitives/0/attributes/TEXCOORD_2", "3", kAttributes},
     {"/meshes/0/primitives/0/attributes/TEXCOORD_0", "1"},
     {"/meshes/0/primitives/0/attributes/_IDS", "14"},
+    {"/meshes/0/primitives/0/attributes/_IDS", "15"},
     {"/accessors/0/max", "", "/accessors/0"},
     {"/accessors/3/normalized", "true"},
     {"/meshes/0/weights", "[0, 1]"},
@@ -158,9 +159,11 @@ TEST(GltfSemantics, HarmlessViolationsGiveWarningsAtTheirPointer) {
   for (const Change& change : kSurvivedChanges) {
     SCOPED_TRACE(std::string(change.where) + " = " + change.value);
     AssetBuilder asset = rig();
-    // Accessor 14 has a type that vertex attributes must not have. Some changes use it for an
-    // application-specific attribute.
+    // Accessors 14 and 15 have types that vertex attributes must not have. Some changes use them
+    // for an application-specific attribute.
     asset.add("accessors", {{"componentType", kUint32}, {"count", 3}, {"type", "SCALAR"}});
+    asset.add("accessors",
+              {{"bufferView", 0}, {"componentType", kFloat32}, {"count", 3}, {"type", "VEC5"}});
     EXPECT_THAT(texts(load(mutated(asset, change.where, change.value)).warnings),
                 Contains(HasSubstr(change.place() + ": ")));
   }

@@ -3,11 +3,14 @@
 /** Options with their values; flags have the value null. */
 export class Options {
   #values = new Map();
+  #joined = new Set(); // options whose value is part of the word, as in --ground=0.5
 
   constructor(words) {
     for (let i = 0; i < words.length; ++i) {
+      const [, name, value] = words[i].match(/^(--[\w-]+)=(.*)$/s) ?? [];
       const hasValue = i + 1 < words.length && !words[i + 1].startsWith("--");
-      this.#values.set(words[i], hasValue ? words[++i] : null);
+      if (name !== undefined) this.#joined.add(name);
+      this.#values.set(name ?? words[i], value ?? (hasValue ? words[++i] : null));
     }
   }
 
@@ -22,7 +25,10 @@ export class Options {
   }
 
   get words() {
-    return [...this.#values].flatMap(([name, value]) => (value === null ? [name] : [name, value]));
+    return [...this.#values].flatMap(([name, value]) => {
+      if (value === null) return [name];
+      return this.#joined.has(name) ? [`${name}=${value}`] : [name, value];
+    });
   }
 
   copy() {

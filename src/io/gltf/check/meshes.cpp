@@ -45,7 +45,8 @@ bool is_standard(std::string_view name, const Format& f, bool of_target) {
   if (name == "JOINTS") {
     return f.type == "VEC4" && !f.normalized && is_one_of(f.component_type, {kUint8, kUint16});
   }
-  return f.component_type != kUint32;  // application-specific attribute
+  // An application-specific attribute has any known format but this one.
+  return !f.type.empty() && f.component_type != kUint32;
 }
 
 /// Returns true for the additional formats of KHR_mesh_quantization.
