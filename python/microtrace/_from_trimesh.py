@@ -43,7 +43,7 @@ def _add(scene: Scene, mesh: Any, name: str, transform: Any) -> None:
         normals=_loaded_normals(mesh),
         uv=None if uv is None else _downward(np.asarray(uv)),
         colors=colors,
-        material=_material(getattr(visual, "material", None)) if uv is not None else None,
+        material=_material(getattr(visual, "material", None), has_uv=uv is not None),
         transform=transform,
         name=name,
     )
@@ -66,7 +66,7 @@ def _downward(uv: Any) -> Any:
     return result
 
 
-def _material(source: Any) -> Material | None:
+def _material(source: Any, *, has_uv: bool) -> Material | None:
     if source is None:
         return None
     if hasattr(source, "to_pbr"):  # SimpleMaterial
@@ -94,6 +94,8 @@ def _material(source: Any) -> Material | None:
     cutoff = getattr(source, "alphaCutoff", None)
     if cutoff is not None:
         result.alpha_cutoff = float(cutoff)
+    if not has_uv:
+        return result
     result.base_color_texture = _texture(getattr(source, "baseColorTexture", None))
     result.metallic_roughness_texture = _texture(getattr(source, "metallicRoughnessTexture", None))
     result.normal_texture = _texture(getattr(source, "normalTexture", None))

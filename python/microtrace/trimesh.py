@@ -24,8 +24,8 @@ class RayMeshIntersector:
     to float32, and so are directions. Hits are those of real arithmetic on these numbers, so rays
     never slip between triangles. As in trimesh, hits at a ray's origin count, and triangles in
     whose plane the ray lies are not hit; rays still hit their neighbors at the common edges. Of
-    several triangles that a ray hits at a common vertex or edge, only one counts. If the mesh has
-    changed, the next query prepares it again.
+    several triangles that a ray enters at a common vertex or edge, only one counts, and so does
+    one of those that it leaves there. If the mesh has changed, the next query prepares it again.
     """
 
     def __init__(self, mesh: Any, **_: Any) -> None:
@@ -134,8 +134,10 @@ class RayMeshIntersector:
     def _all(self, rays: Array) -> tuple[Array, Array, Array]:
         """Returns t, triangles and rays of all hits."""
         found = self._prepared().intersect_all(rays, t_min=0)
-        counts = ~self._is_edge_on(rays[found.ray, 3:], found.primitive)
+        facing = self._facing(rays[found.ray, 3:], found.primitive)
+        counts = facing != 0
         t, tri, ray = found.t[counts], found.primitive[counts], found.ray[counts]
+        facing = facing[counts]
         is_new = np.ones(len(t), bool)
         begins = np.ones(len(t), bool)
         begins[1:] = (ray[1:] != ray[:-1]) | (t[1:] != t[:-1])
@@ -146,8 +148,10 @@ class RayMeshIntersector:
             corners = self._vertices[np.asarray(self.mesh.faces)[tri[at]]]
             earlier = self._vertices[np.asarray(self.mesh.faces)[tri[at - lag]]]
             # Compares positions, because vertices with different indices coincide at seams.
-            equal = (corners[:, :, None] == earlier[:, None]).all(axis=3)
-            is_new[at] &= ~equal.any(axis=(1, 2))
+            touch = (corners[:, :, None] == earlier[:, None]).all(axis=3).any(axis=(1, 2))
+            # A ray that cuts off a sharp edge enters and leaves at different points, whose t may
+            # round to the same number.
+            is_new[at] &= ~(touch & (facing[at] == facing[at - lag]))
         return t[is_new], tri[is_new], ray[is_new]
 
     def _nearest(self, rays: Array) -> tuple[Array, Array, Array]:
@@ -155,7 +159,7 @@ class RayMeshIntersector:
         hits = self._prepared().intersect(rays, t_min=0, fields=("t", "primitive"))
         ray = np.nonzero(hits.primitive >= 0)[0]
         t, tri = hits.t[ray], hits.primitive[ray]
-        edge_on = self._is_edge_on(rays[ray, 3:], tri)
+        edge_on = self._facing(rays[ray, 3:], tri) == 0
         if not edge_on.any():
             return t, tri, ray
         asked = ray[edge_on]
@@ -167,18 +171,19 @@ class RayMeshIntersector:
         tri = np.concatenate([tri[~edge_on], more_tri[first]])
         return t[order], tri[order], ray[order]
 
-    def _is_edge_on(self, directions: Array, tri: Array) -> npt.NDArray[np.bool_]:
-        """Returns True for triangles that are exactly parallel to a direction, by exact arithmetic
-        where float64 can't decide."""
+    def _facing(self, directions: Array, tri: Array) -> npt.NDArray[np.float64]:
+        """Returns the sign of the normal along the direction, 0 for triangles that are exactly
+        parallel to it; by exact arithmetic where float64 can't decide."""
         corners = self._vertices[np.asarray(self.mesh.faces)[tri]]
         d = directions.astype(np.float32).astype(np.float64)
         a, b, c = corners.astype(np.float64).transpose(1, 0, 2)
         slope = (np.cross(b - a, c - a) * d).sum(axis=1)
         size = np.abs(b - a).max(axis=1, initial=0) * np.abs(c - a).max(axis=1, initial=0)
-        edge_on: npt.NDArray[np.bool_] = np.abs(slope) <= 1e-12 * size
-        for i in np.nonzero(edge_on)[0]:
-            edge_on[i] = _volume(corners[i], d[i]) == 0
-        return edge_on
+        sign: npt.NDArray[np.float64] = np.sign(slope)
+        for i in np.nonzero(np.abs(slope) <= 1e-12 * size)[0]:
+            volume = _volume(corners[i], d[i])
+            sign[i] = (volume > 0) - (volume < 0)
+        return sign
 
     def _rays(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Returns rays relative to the mesh's center. Scales directions so that their greatest

@@ -32,8 +32,9 @@ cli::Arguments arguments_of(const Prepared& prepared, std::string name,
   if (!prepared.is_flat && prepared.has_background) {
     for (const char* word : {"path", "--integrator"}) words.insert(words.begin(), word);
   }
-  words.insert(words.begin(), std::move(name));
+  words.insert(words.begin(), "scene");  // a name may look like an option
   cli::Arguments arguments = cli::parse_words(cli::Command::view, std::move(words));
+  arguments.scene = std::move(name);
   arguments.view.port = static_cast<std::uint16_t>(port);
   arguments.view.allowed_host = std::move(allowed_host);
   return arguments;

@@ -90,6 +90,15 @@ def test_order_of_faces_makes_no_difference():
         assert len(hits[0]) == 2, order
 
 
+def test_rays_that_cut_off_an_edge_hit_both_sides():
+    """The ray enters at t = 100 - 4/3 u and leaves at 100 - u, which both round to 100 - u."""
+    box, u = trimesh.creation.box(), 2.0**-17
+    origin, along = np.array([u - 99.5, u - 75.5, 0.1]), np.array([1, 0.75, 0])
+    tri, ray = RayMeshIntersector(box).intersects_id([origin], [along])
+    assert (box.face_normals[tri] @ along > 0).tolist() == [False, True]
+    assert RayMeshIntersector(box).intersects_id([origin + [2 * u, 0, 0]], [along])[0].size == 0
+
+
 def test_close_surfaces_count_twice():
     """Two squares whose distances from the origin round to the same t."""
     square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float64)
@@ -205,5 +214,10 @@ def test_scenes():
     )
     assert picture.albedo[4, 4].tolist() == [1, 0, 0]
     assert mt.scene_of(trimesh.creation.box()).prepare().is_closed()
+    red = trimesh.visual.material.PBRMaterial(baseColorFactor=[255, 0, 0, 255], metallicFactor=0.5)
+    plain = trimesh.creation.box()
+    plain.visual = trimesh.visual.TextureVisuals(uv=None, material=red)
+    material = mt.scene_of(plain).objects[0].material
+    assert material.base_color_factor == (1, 0, 0, 1) and material.metallic_factor == 0.5
     with pytest.raises(TypeError, match="vertices and faces"):
         mt.scene_of("mesh")

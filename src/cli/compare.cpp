@@ -2,6 +2,7 @@
 
 #include "base/printable.hpp"
 #include "cli/pictures/exposure.hpp"
+#include "cli/report/standard_output.hpp"
 
 #include <microtrace/compare.hpp>
 #include <microtrace/error.hpp>
@@ -65,6 +66,15 @@ std::string text_of(const PictureDifference& d, double threshold) {
          " and " + list(d.values[1], false) + "\n";
 }
 
+std::string sizes_text(ImageSize a, ImageSize b, bool is_json) {
+  std::array<char, 96> text{};
+  (void)std::snprintf(text.data(), text.size(),
+                      is_json ? "{\"sizes\":[[%u,%u],[%u,%u]]}\n"
+                              : "the sizes differ: %u x %u and %u x %u pixels\n",
+                      a.width, a.height, b.width, b.height);
+  return text.data();
+}
+
 }  // namespace
 
 int compare_files(const Arguments& arguments) {
@@ -81,9 +91,7 @@ int compare_files(const Arguments& arguments) {
   if (const auto name = inputs.name_of(arguments.output); name && !arguments.output.empty())
     refuse_usage("--output: would overwrite " + printable(*name));
   if (a.size.width != b.size.width || a.size.height != b.size.height) {
-    std::printf(options.is_json ? "{\"sizes\":[[%u,%u],[%u,%u]]}\n"
-                                : "the sizes differ: %u x %u and %u x %u pixels\n",
-                a.size.width, a.size.height, b.size.width, b.size.height);
+    write_standard_output(sizes_text(a.size, b.size, options.is_json));
     return kPicturesDiffer;
   }
   Display display;
@@ -93,8 +101,7 @@ int compare_files(const Arguments& arguments) {
   const std::string text =
       options.is_json ? json_of(difference) : text_of(difference, options.threshold);
   if (!arguments.output.empty()) save_image(difference_picture(a, b, display), arguments.output);
-  if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
-    throw Error(ErrorKind::io, "standard output", "can't be written");
+  write_standard_output(text);
   return difference.differing == 0 ? 0 : kPicturesDiffer;
 }
 

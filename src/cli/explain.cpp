@@ -4,6 +4,7 @@
 #include "cli/options/option_value.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/report/explanation_text.hpp"
+#include "cli/report/standard_output.hpp"
 #include "cli/report/warnings.hpp"
 
 #include <microtrace/explain.hpp>
@@ -63,10 +64,8 @@ void explain_ray(const Arguments& arguments) {
   const Explanation explanation =
       ray ? explain_in_scene(scene, ray->in_scene(scene.scene().origin), options)
           : explain_pixel(scene, arguments, options);
-  const std::string text =
-      arguments.explain.is_json ? explanation_json(explanation) : explanation_text(explanation);
-  if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
-    throw Error(ErrorKind::io, "standard output", "can't be written");
+  write_standard_output(arguments.explain.is_json ? explanation_json(explanation)
+                                                  : explanation_text(explanation));
 }
 
 }  // namespace microtrace::cli

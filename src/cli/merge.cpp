@@ -64,8 +64,9 @@ FilmContents contents_of(const Checkpoint& all, bool denoises) {
   return {.alpha = all.has_alpha, .channels = has_channels};
 }
 
-/// Merges the checkpoints of one picture. `denoiser` is null if the picture is not denoised.
-void merge_picture(const Arguments& arguments, const Sequence& sequence, std::uint32_t index,
+/// Merges the checkpoints of one picture. Returns false if none exists and samples may be missing.
+/// `denoiser` is null if the picture is not denoised.
+bool merge_picture(const Arguments& arguments, const Sequence& sequence, std::uint32_t index,
                    const Denoiser* denoiser) {
   const auto begin = std::chrono::steady_clock::now();
   const ReadFiles inputs;
@@ -74,7 +75,7 @@ void merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
   const MemoryScope scope(memory);
   std::vector<std::filesystem::path> files = sequence.checkpoints(index);
   skip_missing(files, arguments);
-  if (files.empty()) return;
+  if (files.empty()) return false;
   const std::filesystem::path picture = sequence.picture(index),
                               merged = sequence.checkpoint(index);
   Checkpoint all = load_checkpoint(files.front());
@@ -84,12 +85,13 @@ void merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
   add_files(all, std::span(files).subspan(1), memory, true);
   check_no_input_is_overwritten(inputs, {{"--output", picture}, {"--checkpoint", merged}});
   const std::string missing = missing_samples(all);
+  const std::string place = picture.empty() ? merged.string() : picture.string();
   if (!missing.empty() && !arguments.allows_missing_samples) {
-    throw Error(ErrorKind::usage, "",
+    throw Error(ErrorKind::usage, place,
                 missing + "; add the checkpoints of the missing shards, or use --partial");
   }
-  if (!missing.empty() && !arguments.quiet) std::fprintf(stderr, "warning: %s\n", missing.c_str());
-  if (!merged.empty()) save_checkpoint(all, merged);
+  if (!missing.empty() && !arguments.quiet)
+    std::fprintf(stderr, "warning: %s: %s\n", printable(place).c_str(), missing.c_str());
   if (!picture.empty()) {
     Film film = picture_of(all);
     if (denoiser != nullptr) {
@@ -99,11 +101,13 @@ void merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
     apply_display(film, arguments.display);
     save_image(film, picture, arguments.ppm);
   }
+  if (!merged.empty()) save_checkpoint(all, merged);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   if (!arguments.quiet) {
     report_written({.main = picture.empty() ? merged : picture, .sidecar = {}},
                    all.sums.window.size(), all.sums.count(), arguments.display, seconds.count());
   }
+  return true;
 }
 
 }  // namespace
@@ -116,8 +120,11 @@ void merge_samples(const Arguments& arguments) {
   check_paths(ReadFiles(), sequence);
   std::optional<Denoiser> denoiser;
   if (arguments.denoises && !arguments.output.empty()) denoiser.emplace();
+  bool any_exists = false;
   for (std::uint32_t index = 0; index < sequence.count(); ++index)
-    merge_picture(arguments, sequence, index, denoiser ? &*denoiser : nullptr);
+    any_exists |= merge_picture(arguments, sequence, index, denoiser ? &*denoiser : nullptr);
+  if (!any_exists)
+    throw Error(ErrorKind::io, "", "none of the checkpoints exists; check the names");
 }
 
 }  // namespace microtrace::cli

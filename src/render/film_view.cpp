@@ -81,13 +81,16 @@ void for_each_run_of_colors(const Film& film, F&& f) {
 FilmView view_of(const Film& film, const PreparedScene& prepared, const Camera& camera,
                  const RenderOptions& options) {
   const Scene& scene = prepared.scene();
+  const std::optional<Environment>& environment =
+      options.environment ? options.environment : scene.environment;
+  const Vec3 background = options.background.value_or(scene.background);
   const Blackness is_black(film.display);
-  const bool shows_all = scene.environment && scene.environment->is_background &&
+  const bool shows_all = environment && environment->is_background &&
                          options.integrator != nullptr && options.integrator->is_random();
   // Pixels may show no surface if they have this color. A black pixel with alpha may be a shadow.
   const std::optional<Vec3> color_of_nothing = film.has_alpha() ? std::optional(Vec3(0))
                                                : shows_all      ? std::nullopt
-                                                                : std::optional(scene.background);
+                                                                : std::optional(background);
   FilmView view;
   std::size_t lit = 0, black = 0, doubtful = 0;
   for_each_run_of_colors(film, [&](std::size_t, const Vec3& color, std::size_t count) {
@@ -100,7 +103,7 @@ FilmView view_of(const Film& film, const PreparedScene& prepared, const Camera& 
       lit += count;
     }
   });
-  const bool are_black = film.has_alpha() || is_black(scene.background);
+  const bool are_black = film.has_alpha() || is_black(background);
   if (doubtful > 0 && (lit + black == 0 || (are_black && is_most(black + doubtful, lit)))) {
     const std::vector<bool> is_there = occupied(prepared, camera, film.whole, options);
     for_each_run_of_colors(film, [&](std::size_t first, const Vec3& color, std::size_t count) {

@@ -14,7 +14,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from program import ProgramTest
+from program import PROGRAM, ProgramTest
 
 SCENES = Path(sys.argv[2]).absolute() / "scenes"
 
@@ -40,6 +40,15 @@ class Compare(ProgramTest):
         else:
             body = struct.pack(f">{len(samples)}{'B' if maximum < 256 else 'H'}", *samples)
         (self.folder / name).write_bytes(head + body)
+
+    def test_results_that_can_not_be_written(self):
+        for name, size in (("a.ppm", (2, 1)), ("b.ppm", (1, 1))):
+            self.ppm(name, *size, [0] * 3 * size[0])
+        for other in ("a.ppm", "b.ppm"):
+            with open("/dev/full", "w") as full:
+                result = subprocess.run([PROGRAM, "compare", "a.ppm", other], cwd=self.folder, stdout=full, stderr=subprocess.PIPE)
+            self.assertEqual(result.returncode, 5, result.stderr)
+            self.assertIn(b"standard output: can't be written: No space left on device", result.stderr)
 
     def test_formats_of_one_rendering_are_equal(self):
         for extension in ("ppm", "png", "exr", "tif"):

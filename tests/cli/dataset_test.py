@@ -261,6 +261,23 @@ class Dataset(ProgramTest):
         self.dataset("--views", "orbit:2", *SMALL, "--instances", "copy", "--allow-path", ".", "-t", "1")
         self.assertEqual(self.contents(), whole)
 
+    def test_options_without_effect_are_refused(self):
+        lens = ["--aperture", "0.5", "--focus", "3"]
+        for options, message in ((["--views", "orbit:2", "--camera", "nonsense"], "all have one"),
+                                 (["--views", "orbit:2", "--eye", "1,2,3"], "all have one"),
+                                 (["--target", "1,2,3"], "--target requires --eye"),
+                                 (["--fov", "100"], "--fov requires"),
+                                 ([*self.views({"camera": "0"}), *lens], "--aperture and --focus are for views"),
+                                 (["--animation", "0"], "--animation requires")):
+            self.assertIn(message, self.dataset(*options, scene=SOURCE / "scenes/gltf/moving.glb", code=2))
+        moving = ["--animation", "0", *self.views({"time": 0.5})]
+        self.dataset(*moving, *SMALL, scene=SOURCE / "scenes/gltf/moving.glb", output="moving")
+        framed = [*SMALL, "--integrator", "path", "--spp", "2", "--formats", "exr"]
+        self.dataset("--views", "orbit:1", *lens, *framed, output="lens")
+        alone = self.run_program(SCENE, *framed[:-2], "--view", "0,25", *lens, "-o", "alone.exr")
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        self.assertEqual((self.folder / "alone.exr").read_bytes(), self.contents("lens")["000000.exr"])
+
     def test_files_of_other_folders_are_read_again(self):
         mesh = {"type": "mesh", "file": "link.glb"}
         scene = {"version": 1, "objects": [mesh]}

@@ -242,17 +242,30 @@ class Samples(ProgramTest):
         # If samples are missing, merge writes a picture only with --partial. Another run can add the missing samples.
         result = self.run_program("merge", "part1", "part3", "-o", "none.ppm")
         self.assertEqual(result.returncode, 2)
-        self.assertIn(b"error: samples 16 to 32 of 50 are missing; ", result.stderr)
+        self.assertIn(b"error: none.ppm: samples 16 to 32 of 50 are missing; ", result.stderr)
         self.assertFalse((self.folder / "none.ppm").exists())
         result = self.run_program("merge", "part1", "part3", "-o", "merged.ppm", "--partial")
         self.assertEqual(result.returncode, 0)
-        self.assertIn(b"warning: samples 16 to 32 of 50 are missing\n", result.stderr)
+        self.assertIn(b"warning: merged.ppm: samples 16 to 32 of 50 are missing\n", result.stderr)
         self.assertNotEqual(self.bytes_of("merged.ppm"), whole)
         self.render("--spp", "50", "--resume", "part1", "--resume", "part3", "-o", "filled.ppm")
         self.assertEqual(self.bytes_of("filled.ppm"), whole)
         twice = self.run_program("merge", "part1", "part2", "part1", "-o", "merged.ppm")
         self.assertEqual(twice.returncode, 2)
         self.assertIn(b"part1: holds samples 0 to 15, some of which are already present", twice.stderr)
+
+    def test_a_checkpoint_of_another_program_is_not_overwritten(self):
+        self.render("--spp", "60000", "--shard", "2/2", "--time-limit", "0.2", "--checkpoint", "other")
+        command = [PROGRAM, SCENE, *LIGHT, "--spp", "60000", "--shard", "1/2", "--time-limit", "60", "--save-every", "0.1"]
+        first = subprocess.Popen([*command, "--checkpoint", "same"], cwd=self.folder, env=environment(), stderr=subprocess.PIPE)
+        while not (self.folder / "same").exists():
+            self.assertIsNone(first.poll())
+            time.sleep(0.02)
+        shutil.copy(self.folder / "other", self.folder / "copy")
+        os.replace(self.folder / "copy", self.folder / "same")
+        self.assertIn(b"same: was written by another program meanwhile", first.communicate(timeout=60)[1])
+        self.assertEqual(first.returncode, 5)
+        self.assertEqual(self.bytes_of("same"), self.bytes_of("other"))
 
     def test_samples_of_other_pictures_are_refused(self):
         scene = self.folder / "scene.json"

@@ -126,6 +126,7 @@ class Shards(ProgramTest):
             self.assertIn(f"{name} is missing", message)
         self.assertEqual({name for name in os.listdir(self.folder) if name.startswith("x")}, {"x0.exr", "x2.exr", "x3.exr"})
         self.assertEqual(self.bytes_of("x3.exr"), whole[3])
+        self.assertIn("none of the checkpoints exists", self.run_with("merge", "3_%02d", *options, "--partial", code=5))
 
     def test_files_of_frames_stay_apart(self):
         for arguments in (["--checkpoint", "x%d.exr", "-o", "x%d.exr"], ["--resume", "x%d.exr", "-o", "x%d.exr"],

@@ -30,8 +30,9 @@ class Slurm(ProgramTest):
         (tools / "microtrace").symlink_to(PROGRAM)
         self.path = f"{tools}:{os.environ['PATH']}"
 
-    def start(self, index, *arguments, restarts=0):
-        """Starts task `index` of the array as Slurm does: in a process group of its own."""
+    def start(self, index, *arguments, restarts=0, **variables):
+        """Starts task `index` of the array as Slurm does: in a process group of its own. `variables` replace those of the
+        array."""
         return subprocess.Popen(
             ["bash", SCRIPT, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
             start_new_session=True,
@@ -39,7 +40,7 @@ class Slurm(ProgramTest):
                  "SLURM_ARRAY_TASK_ID": str(FIRST + STEP * index), "SLURM_ARRAY_TASK_MIN": str(FIRST),
                  "SLURM_ARRAY_TASK_MAX": str(FIRST + STEP * (COUNT - 1)), "SLURM_ARRAY_TASK_STEP": str(STEP),
                  "SLURM_ARRAY_TASK_COUNT": str(COUNT), "SLURM_CPUS_PER_TASK": "1",
-                 "SLURM_RESTART_COUNT": str(restarts)})
+                 "SLURM_RESTART_COUNT": str(restarts), **variables})
 
     def program_of(self, task):
         """Waits until the task has started the program, and returns the program's process."""
@@ -109,6 +110,22 @@ class Slurm(ProgramTest):
         self.program_of(task)
         task.send_signal(signal.SIGTERM)
         self.finish(task, 143)
+        self.assertEqual(self.requeued(), [])
+
+    def test_lists_of_indices_need_the_number_of_shards(self):
+        command = [SCENE, "--integrator", "path", "--spp", "8", "--size", "48x32"]
+        self.assertEqual(self.run_program(*command, "-o", "one.exr").returncode, 0)
+        for task in (3, 4, 1, 2):
+            # --array=1,3,4 and --array=2
+            one = {"SLURM_ARRAY_TASK_MIN": "2", "SLURM_ARRAY_TASK_MAX": "2", "SLURM_ARRAY_TASK_COUNT": "1"}
+            more = {"SLURM_ARRAY_TASK_MIN": "1", "SLURM_ARRAY_TASK_MAX": "4", "SLURM_ARRAY_TASK_COUNT": "3"}
+            variables = {**(one if task == 2 else more), "SLURM_ARRAY_TASK_STEP": "1", "SLURM_ARRAY_TASK_ID": str(task)}
+            start = [0, *command, "--checkpoint", "part{}"]
+            self.assertIn("set SHARDS", self.finish(self.start(*start, **variables), 2))
+            self.finish(self.start(*start, **variables, SHARDS="4"))
+        merged = self.run_program("merge", *(f"part{i}" for i in range(1, 5)), "-o", "merged.exr")
+        self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.assertEqual((self.folder / "merged.exr").read_bytes(), (self.folder / "one.exr").read_bytes())
         self.assertEqual(self.requeued(), [])
 
     def test_wrong_options_and_scenes_are_not_tried_again(self):

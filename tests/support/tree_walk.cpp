@@ -6,6 +6,7 @@
 #include <functional>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 namespace microtrace {
@@ -45,8 +46,17 @@ bool holds(const Bounds& b, const Sphere& s) {
   return true;
 }
 
+// Checks that the box contains the extreme points of the disc, up to rounding.
 bool holds(const Bounds& b, const Disc& d) {
-  return holds(b, d.center);
+  const DVec3 n = glm::normalize(DVec3(d.normal));
+  for (int k = 0; k < 3; ++k) {
+    const double reach = d.radius * std::sqrt(std::max(0.0, 1 - n[k] * n[k])) * (1 - 0x1p-40);
+    const double slack = 0x1p-50 * (std::abs(double{d.center[k]}) + d.radius);
+    if (!(double{b.lo[k]} <= double{d.center[k]} - reach + slack &&
+          double{d.center[k]} + reach - slack <= double{b.hi[k]}))
+      return false;
+  }
+  return true;
 }
 
 template <class Other>

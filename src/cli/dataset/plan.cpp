@@ -25,20 +25,26 @@ void check_memory(const Arguments& arguments, std::uint64_t views) {
   take_memory(views * (sizeof(DatasetView) + kNameSize), "the views of the data set");
 }
 
+/// Returns the generator that --views names, or an empty text.
+std::string_view generator_of(const Arguments& arguments) {
+  const std::string_view text = arguments.dataset.views;
+  const std::string_view kind = text.substr(0, std::min(text.find(':'), text.size()));
+  const bool is_generated = kind == "orbit" || kind == "hemisphere" || kind == "random";
+  return is_generated && kind.size() < text.size() ? kind : std::string_view();
+}
+
 /// The views of --views without --frames.
 std::vector<DatasetView> listed_views(const Arguments& arguments) {
   const std::string& text = arguments.dataset.views;
   if (text.empty()) return {DatasetView{}};
-  const std::size_t colon = text.find(':');
-  const std::string_view kind = std::string_view(text).substr(0, colon);
-  const bool is_generated = kind == "orbit" || kind == "hemisphere" || kind == "random";
-  if (!is_generated || colon == text.npos) {
+  const std::string_view kind = generator_of(arguments);
+  if (kind.empty()) {
     MemoryBudget budget(arguments.memory_limit.value_or(default_memory_limit()));
     MemoryAccount memory(&budget);
     const MemoryScope scope(memory);
     return read_views(text, arguments.size);
   }
-  const std::vector<double> numbers = numbers_of(std::string_view(text).substr(colon + 1));
+  const std::vector<double> numbers = numbers_of(std::string_view(text).substr(kind.size() + 1));
   const bool is_count = !numbers.empty() && numbers[0] >= 1 && numbers[0] <= kMaxViews &&
                         numbers[0] == static_cast<std::uint32_t>(numbers[0]);
   const std::size_t most = kind == "orbit" ? 2 : 1;
@@ -60,11 +66,31 @@ std::vector<DatasetView> listed_views(const Arguments& arguments) {
   return views;
 }
 
-}  // namespace
+/// Refuses options that none of the views uses.
+void check_use(const Arguments& arguments, const std::vector<DatasetView>& views) {
+  const CameraOptions& camera = arguments.camera;
+  const bool any_lacks_camera = std::ranges::any_of(views, [](const DatasetView& view) {
+    const auto* name = std::get_if<std::string>(&view.camera);
+    return name != nullptr && name->empty();
+  });
+  if (!any_lacks_camera && (!camera.camera.empty() || !camera.is_of_scene()))
+    refuse_usage("--camera, --view and --eye are for views without a camera, but all have one");
+  if (camera.vertical_fov && camera.is_of_scene() && generator_of(arguments).empty())
+    refuse_usage("--fov requires --view, --eye or generated views");
+  const bool any_is_framed = std::ranges::any_of(
+      views, [](const DatasetView& view) { return std::holds_alternative<View>(view.camera); });
+  if ((camera.lens_radius || camera.focus) && !any_lacks_camera && !any_is_framed)
+    refuse_usage(
+        "--aperture and --focus are for views without a camera and for those that frame "
+        "the scene; set the lens of the cameras in the list of views");
+  const bool any_has_time =
+      std::ranges::any_of(views, [](const DatasetView& view) { return view.time.has_value(); });
+  if (!arguments.load.animation.empty() && !arguments.load.time && !any_has_time)
+    refuse_usage("--animation requires --time, --frames or views with times");
+}
 
-std::vector<DatasetView> views_of(const Arguments& arguments) {
-  std::vector<DatasetView> listed = listed_views(arguments);
-  if (!arguments.frames) return listed;
+std::vector<DatasetView> views_of_frames(const Arguments& arguments,
+                                         const std::vector<DatasetView>& listed) {
   if (std::uint64_t{listed.size()} * arguments.frames->count() > kMaxViews)
     refuse_usage("--frames: more than " + std::to_string(kMaxViews) + " views in all");
   check_memory(arguments, std::uint64_t{listed.size()} * arguments.frames->count());
@@ -76,6 +102,15 @@ std::vector<DatasetView> views_of(const Arguments& arguments) {
       views.push_back(std::move(view));
     }
   }
+  return views;
+}
+
+}  // namespace
+
+std::vector<DatasetView> views_of(const Arguments& arguments) {
+  std::vector<DatasetView> views = listed_views(arguments);
+  if (arguments.frames) views = views_of_frames(arguments, views);
+  check_use(arguments, views);
   return views;
 }
 

@@ -109,6 +109,8 @@ Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, Ima
   if (const auto* direction = std::get_if<View>(&view.camera)) {
     options = {};
     options.orbit = OrbitView{.view = *direction};
+    options.lens_radius = arguments_.camera.lens_radius;
+    options.focus = arguments_.camera.focus;
   } else if (const auto& name = std::get<std::string>(view.camera); !name.empty()) {
     options = {};
     options.camera = name;

@@ -181,13 +181,17 @@ void check_patterns(const Arguments& a) {
   for (const std::filesystem::path& name : a.checkpoints) check("CHECKPOINT", name);
 }
 
-/// Checks rules about options of cameras and animations.
-void check_view(const Arguments& a) {
-  const CameraOptions& camera = a.camera;
+void check_target(const CameraOptions& camera) {
   const bool has_position = camera.eye || (camera.orbit && camera.orbit->distance);
   if (camera.target && !has_position)
     refuse_usage("--target requires --eye, or --view with a distance");
-  if (camera.vertical_fov && camera.is_of_scene()) refuse_usage("--fov requires --view or --eye");
+}
+
+/// Checks rules about options of cameras and animations.
+void check_view(const Arguments& a) {
+  check_target(a.camera);
+  if (a.camera.vertical_fov && a.camera.is_of_scene())
+    refuse_usage("--fov requires --view or --eye");
   if (!a.load.animation.empty() && !a.load.time && !a.frames)
     refuse_usage("--animation requires --time or --frames");
 }
@@ -227,7 +231,10 @@ Arguments parse_with(Parser& parser, Command command, int argc, char** argv) {
     check_view(a);
     if (!a.explain.pixel && !a.explain.ray) refuse_usage("explain needs --pixel or --ray");
   }
-  if (command == Command::dataset) identify_dataset(given, a.dataset);
+  if (command == Command::dataset) {
+    check_target(a.camera);
+    identify_dataset(given, a.dataset);
+  }
   a.identity = identity_of(given);
   return a;
 }

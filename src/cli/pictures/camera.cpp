@@ -18,8 +18,11 @@ PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options
       .pose = {.position = eye, .direction = target - eye, .up = options.up},
       .vertical_fov = radians_from_degrees(options.view().vertical_fov)};
   if (const auto problem = validate(camera)) {
-    refuse_usage(problem->field == "direction"
-                     ? "--eye: equals the target; choose another one with --target"
+    if (problem->field == "direction")
+      refuse_usage("--eye: equals the target; choose another one with --target");
+    if (problem->field == "position") refuse_usage("--eye: " + problem->message);
+    refuse_usage(options.up == DVec3(0)
+                     ? "--up: must not be zero"
                      : "--up: must not be parallel to the direction from --eye to the target");
   }
   return camera;

@@ -35,6 +35,8 @@ DisplayOptions with_exposure(const DisplayOptions& display, const PreparedScene&
 DisplayOptions with_exposure_of_frames(SceneFile& file, const Arguments& arguments,
                                        const std::optional<Environment>& environment,
                                        const std::optional<PerspectiveCamera>& framing) {
+  if (arguments.display.exposure || arguments.display.automatic == AutomaticExposure::never)
+    return arguments.display;  // without loading the scene
   Scene scene = file.at(0.0).scene;
   if (!is_exposure_automatic(arguments.display, scene)) return arguments.display;
   apply_environment(scene, environment, arguments.environment);

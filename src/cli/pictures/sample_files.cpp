@@ -1,11 +1,13 @@
 #include "cli/pictures/sample_files.hpp"
 
+#include <microtrace/error.hpp>
 #include <microtrace/io.hpp>
 #include <microtrace/version.h>
 
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <sys/stat.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -52,6 +54,7 @@ SampleFiles::SampleFiles(const Arguments& arguments, const Sequence& sequence, s
     : arguments_(arguments),
       checkpoint_(sequence.checkpoint(index)),
       picture_(sequence.picture(index)),
+      known_(version_of(checkpoint_)),
       samples_{.identity = identity_of(arguments, files, sequence.frame(index)),
                .has_alpha = arguments.environment.is_transparent(),
                .samples = arguments.sampling.samples},
@@ -87,8 +90,21 @@ void SampleFiles::keep(const std::vector<Channel>& channels) {
   samples_.channels = channels;
 }
 
-void SampleFiles::save() const {
-  if (!checkpoint_.empty() && has_samples()) save_checkpoint(samples_, checkpoint_);
+SampleFiles::Version SampleFiles::version_of(const std::filesystem::path& file) {
+  struct stat info {};
+  if (::stat(file.c_str(), &info) != 0) return {};
+  return {static_cast<std::int64_t>(info.st_ino), info.st_size, info.st_mtim.tv_sec,
+          info.st_mtim.tv_nsec};
+}
+
+void SampleFiles::save() {
+  if (checkpoint_.empty() || !has_samples()) return;
+  if (const Version now = version_of(checkpoint_); now != Version{} && now != known_)
+    throw Error(
+        ErrorKind::io, checkpoint_.string(),
+        "was written by another program meanwhile; give each one a --checkpoint of its own");
+  save_checkpoint(samples_, checkpoint_);
+  known_ = version_of(checkpoint_);
 }
 
 void SampleFiles::save_if_due() {

@@ -8,6 +8,7 @@
 #include <microtrace/checkpoint.hpp>
 #include <microtrace/render.hpp>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -44,17 +45,22 @@ class SampleFiles {
   /// False before the first pass.
   [[nodiscard]] bool has_samples() const { return !samples_.sums.pixels.empty(); }
 
-  /// Writes the checkpoint if there is one and there are samples.
-  void save() const;
+  /// Writes the checkpoint if there is one and there are samples. Throws Error (io) if another
+  /// program has written the file since this one read or wrote it.
+  void save();
 
   /// The file of --checkpoint; empty if there is none.
   [[nodiscard]] const std::filesystem::path& checkpoint() const { return checkpoint_; }
 
  private:
+  /// Distinguishes the versions of a file: its number, size and time. Zero if it doesn't exist.
+  using Version = std::array<std::int64_t, 4>;
+  [[nodiscard]] static Version version_of(const std::filesystem::path& file);
   void save_if_due();
 
   const Arguments& arguments_;
   std::filesystem::path checkpoint_, picture_;
+  Version known_;  ///< of the checkpoint, as this program read or wrote it
   Checkpoint samples_;
   MemoryAccount memory_;  ///< memory of samples that were read
   std::chrono::steady_clock::time_point saved_;

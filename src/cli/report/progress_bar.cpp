@@ -22,8 +22,8 @@ void draw(double fraction, double seconds, std::uint32_t pictures) {
   const int filled = static_cast<int>(fraction * kWidth);
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                           std::string(static_cast<std::size_t>(kWidth - filled), '.');
-  std::fprintf(stderr, "\r[%s] %3d %%, %.0f s left", bar.c_str(), static_cast<int>(fraction * 100),
-               seconds / fraction * (1 - fraction));
+  std::fprintf(stderr, "\r[%s] %3d %%", bar.c_str(), static_cast<int>(fraction * 100));
+  if (fraction > 0) std::fprintf(stderr, ", %.0f s left", seconds / fraction * (1 - fraction));
   if (pictures > 1) {
     const int picture = static_cast<int>(fraction * pictures) + 1;
     std::fprintf(stderr, ", picture %d of %u", picture, pictures);

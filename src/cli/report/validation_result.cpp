@@ -1,10 +1,9 @@
 #include "cli/report/validation_result.hpp"
 
 #include "base/printable.hpp"
+#include "cli/report/standard_output.hpp"
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 
 namespace microtrace::cli {
 namespace {
@@ -37,10 +36,7 @@ void print_validation_result(const std::string& scene, std::size_t errors, std::
   std::string result =
       errors == 0 ? "valid" : "invalid, but drawable: " + count_text(errors, "error");
   if (warnings != 0) result += ", " + count_text(warnings, "warning");
-  std::printf("%s: %s\n", printable(scene).c_str(), result.c_str());
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  throw Error(ErrorKind::io, "standard output",
-              std::string("can't be written: ") + std::strerror(errno) + "; make room");
+  write_standard_output(printable(scene) + ": " + result + "\n");
 }
 
 void print_refusal(const std::string& scene, ErrorKind kind) {

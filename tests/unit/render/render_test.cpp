@@ -1,5 +1,7 @@
 #include <microtrace/aov.hpp>
+#include <microtrace/environment.hpp>
 #include <microtrace/error.hpp>
+#include <microtrace/film_view.hpp>
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
 
@@ -44,6 +46,24 @@ TEST(Render, CameraSeesItsDepthRange) {
   EXPECT_EQ(pixel(0, {.depth = {.near = 4, .far = 10}}), kNear);
   EXPECT_EQ(pixel(0, {.depth = {.near = 4.5, .far = 10}}), kFar);
   EXPECT_EQ(pixel(0, {.depth = {.near = 4.5, .far = 5.5}}), kRenderBackground);
+}
+
+TEST(Render, EmptyPicturesAreFoundBeforeTheBackgroundOfTheOptions) {
+  Scene scene;
+  scene.objects.push_back({.name = "behind", .shape = Sphere{{0, 0, 9}, 1}});
+  const PreparedScene prepared(scene);
+  const auto is_empty = [&](const RenderOptions& options) {
+    const Film film = render(prepared, PerspectiveCamera{}, {.width = 4, .height = 3}, options);
+    return view_of(film, prepared, PerspectiveCamera{}, options).is_empty;
+  };
+  const PathIntegrator path;
+  EXPECT_TRUE(is_empty({}));
+  EXPECT_TRUE(is_empty({.background = Vec3(0.25F)}));
+  EXPECT_TRUE(is_empty({.integrator = &path, .background = Vec3(0.25F)}));
+  Environment sky{.content = Vec3(0.25F)};
+  EXPECT_TRUE(is_empty({.integrator = &path, .environment = sky}));
+  sky.is_background = true;
+  EXPECT_FALSE(is_empty({.integrator = &path, .environment = sky}));
 }
 
 TEST(Render, ProgressEndsAtOne) {
