@@ -37,7 +37,7 @@ RUN_ELSEWHERE = [
     r"scripts/setup python && python3 -m venv venv && venv/bin/pip install \.$",  # scripts/bare python
     r"import microtrace|\w+ = (mt|scene)\.|mt\.",  # python.tests
     r"(python3 )?(tests|bench)/[\w/]+\.(py|sh|txt)( .*)?$",  # see test_scripts_and_presets_exist
-    r"(array=\$\()?sbatch .*|kubectl apply -f clusters/kubernetes/dataset.yaml$",  # slurm, python.tests
+    r"(array=\$\(|SHARDS=\d+ )?sbatch .*|kubectl apply -f clusters/kubernetes/dataset.yaml$",  # slurm, python.tests
     r"ssh -L \d+:127\.0\.0\.1:\d+ server microtrace view ",  # microtrace view itself: view.server
     r"pip install --no-deps --target ~/oidn pyoidn$|export MICROTRACE_OIDN_PATH=",  # like python/tests/requirements.txt
     r"ffmpeg |assimp |ulimit |sudo apt",
