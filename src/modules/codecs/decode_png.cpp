@@ -61,9 +61,7 @@ int decode_png(const unsigned char* bytes, std::size_t size, const MicrotraceIma
     return 0;
   }
   png_infop info = png_create_info_struct(png);
-  // Volatile, because these variables are changed after setjmp and read after the jump.
-  png_bytep* volatile rows = nullptr;
-  volatile int done = 0;
+  volatile int done = 0;  // volatile, because it is changed after setjmp and read after the jump
   if (info != nullptr && setjmp(png_jmpbuf(png)) == 0) {
     png_set_read_fn(png, &source, read);
     png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);  // begin() enforces the limits
@@ -76,14 +74,14 @@ int decode_png(const unsigned char* bytes, std::size_t size, const MicrotraceIma
     auto* samples = static_cast<png_bytep>(sink.begin(sink.context, &header));
     if (samples != nullptr) {
       const std::size_t stride = png_get_rowbytes(png, info);
-      rows = static_cast<png_bytep*>(std::calloc(header.height, sizeof(png_bytep)));
-      if (rows == nullptr) png_error(png, "no memory");
-      for (std::size_t y = 0; y < header.height; ++y) rows[y] = samples + y * stride;
-      png_read_image(png, rows);
-      done = 1;
+      for (int pass = png_set_interlace_handling(png); pass > 0; --pass) {
+        for (std::size_t y = 0; y < header.height; ++y) {
+          png_read_row(png, samples + y * stride, nullptr);
+          done = 1;  // an incomplete image has at least a row
+        }
+      }
     }
   }
-  std::free(rows);
   png_destroy_read_struct(&png, &info, nullptr);
   return done;
 }

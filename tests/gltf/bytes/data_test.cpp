@@ -131,5 +131,20 @@ TEST(GltfData, OverlappingAccessorsAreLimited) {
   }
 }
 
+TEST(GltfData, VerticesMayHaveAnyStride) {
+  const auto expected = triangles_of(load(cube()).scene.objects.at(0));
+  for (const std::size_t stride : {13, 14, 255, 300}) {
+    AssetBuilder asset = cube();
+    std::string bytes;
+    for (std::size_t i = 0; i < 8; ++i)
+      bytes += asset.buffer.substr(12 * i, 12) + std::string(stride - 12, 'x');
+    asset.json["accessors"][0]["bufferView"] = asset.add_view(bytes, stride);
+    const LoadedScene loaded = load(asset);
+    EXPECT_EQ(triangles_of(loaded.scene.objects.at(0)), expected) << stride;
+    EXPECT_THAT(texts(loaded.warnings),
+                testing::Contains(testing::HasSubstr("byteStride: must be a multiple of 4")));
+  }
+}
+
 }  // namespace
 }  // namespace microtrace::tests

@@ -103,6 +103,11 @@ const Survived kSurvived[] = {
      "/cameras/0/perspective", "the other type"},
 
     // Buffers
+    {"/bufferViews/0/byteStride", "0", "/bufferViews/0/byteStride", "tightly packed"},
+    {"/bufferViews", R"([{"buffer": 0, "byteLength": 96},
+                         {"buffer": 0, "byteOffset": 96, "byteLength": 72},
+                         {"buffer": 0, "byteLength": 0}])",
+     "/bufferViews/2/byteLength", "at least 1"},
     {"/buffers/0/uri", "", "/buffers/0", "has no uri"},
 
     // Scenes

@@ -11,6 +11,7 @@ namespace microtrace::tests {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Returns the cube with this material. All its extensions are declared, and 24 textures with
@@ -276,11 +277,11 @@ TEST(GltfMaterial, DamagedPixelsThatNothingReadsAreNoError) {
   for (const std::size_t texture : {3U, 8U, 1U}) {
     AssetBuilder broken = asset;
     broken.json["images"][texture] = damaged;
-    if (texture == 1) {
-      EXPECT_THROW((void)load(broken), Error);
-    } else {
-      EXPECT_THAT(texts(load(broken).warnings), IsEmpty()) << texture;
-    }
+    const std::vector<std::string> warnings = texts(load(broken).warnings);
+    if (texture == 1)
+      EXPECT_THAT(warnings, ElementsAre(HasSubstr("can't be decoded")));
+    else
+      EXPECT_THAT(warnings, IsEmpty()) << texture;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "io/gltf/bytes/buffers.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/document/extension.hpp"
@@ -52,6 +53,23 @@ void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
   }
 }
 
+/// Cuts or extends the data to the stated length. Some exporters count the padding to a multiple of
+/// 4 bytes but don't write it.
+void set_length(Asset& asset, const Element& at, Buffer& buffer) {
+  const auto length = static_cast<std::size_t>(at.value->number);
+  const std::size_t size = buffer.bytes->size();
+  if (size < length) {
+    const std::string problem = "states " + std::to_string(length) +
+                                " bytes, but the buffer's data has only " + std::to_string(size);
+    if (length - size > 3) asset.fail(at, problem);
+    asset.tolerate(at, problem + "; the others are zero");
+    if (buffer.storage.empty()) take_memory(length, "the data of buffers");
+    buffer.storage = std::string(*buffer.bytes).append(length - size, '\0');
+    buffer.bytes = buffer.storage;
+  }
+  buffer.bytes = buffer.bytes->substr(0, length);
+}
+
 }  // namespace
 
 std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin, bool is_glb,
@@ -80,13 +98,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
       missing(asset, at, i == 0 && is_glb);
       continue;
     }
-    const auto length = static_cast<std::size_t>(at.member("byteLength").value->number);
-    if (buffer.bytes->size() < length) {
-      asset.fail(at.member("byteLength"), "states " + std::to_string(length) +
-                                              " bytes, but the buffer's data has only " +
-                                              std::to_string(buffer.bytes->size()));
-    }
-    buffer.bytes = buffer.bytes->substr(0, length);
+    set_length(asset, at.member("byteLength"), buffer);
   }
   return result;
 }

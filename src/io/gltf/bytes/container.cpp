@@ -90,20 +90,13 @@ void check_header(std::string_view bytes, const std::string& name) {
   }
 }
 
-/// Throws Error if the JSON begins with a byte order mark. glTF 2.0, section 2.7, forbids it, and
-/// other readers reject it.
-void refuse_byte_order_mark(std::string_view json, const std::string& name) {
-  if (!json.starts_with("\xEF\xBB\xBF")) return;
-  throw Error(ErrorKind::invalid_scene, name,
-              "starts with a byte order mark; save it as UTF-8 without one");
-}
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
 Container open_container(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with("glTF")) {
-    refuse_byte_order_mark(bytes, name);
-    return {.json = bytes, .bin = {}};
+    return {.json = bytes, .bin = {}, .has_byte_order_mark = bytes.starts_with(kByteOrderMark)};
   }
   check_header(bytes, name);
   const std::size_t size = bytes.size();
@@ -112,9 +105,11 @@ Container open_container(std::string_view bytes, const std::string& name) {
   const Chunk first = reader.next();
   if (first.type != kJsonType) reader.fail("the first chunk is not JSON");
   if (first.data.empty()) reader.fail("the JSON chunk is empty");
-  refuse_byte_order_mark(first.data, name);
-  Container result{
-      .json = first.data, .bin = {}, .is_glb = true, .extra_bytes = size - bytes.size()};
+  Container result{.json = first.data,
+                   .bin = {},
+                   .is_glb = true,
+                   .has_byte_order_mark = first.data.starts_with(kByteOrderMark),
+                   .extra_bytes = size - bytes.size()};
   for (bool second = true; !reader.at_end(); second = false) {
     const Chunk chunk = reader.next();
     if (chunk.type == kJsonType) reader.fail("there are two JSON chunks");

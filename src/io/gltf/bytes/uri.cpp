@@ -76,9 +76,9 @@ std::optional<std::string> decode_percent(std::string_view text) {
 }
 
 std::optional<std::string> decode_base64(std::string_view text) {
-  if (text.size() % 4 != 0) return std::nullopt;
   const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
   const std::size_t digits = text.size() - padding;
+  if (digits % 4 == 1 || (padding != 0 && text.size() % 4 != 0)) return std::nullopt;
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3);
   std::uint32_t bits = 0;
@@ -93,15 +93,14 @@ std::optional<std::string> decode_base64(std::string_view text) {
 }
 
 RelativePath relative_path(std::string_view uri) {
-  const std::optional<std::string> path = decode_percent(uri);
+  std::optional<std::string> path = decode_percent(uri);
   if (!path) return {.refusal = "has a % without two hexadecimal digits; write %25 for %"};
   if (path->empty()) return {.refusal = "is empty"};
   if (has_scheme(uri))
     return {.refusal = "has a scheme; only data: URIs and relative paths are supported"};
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   if (std::ranges::any_of(*path, is_control)) return {.refusal = "has a control character"};
-  if (path->find('\\') != std::string::npos)
-    return {.refusal = "has a backslash; separate folders by /"};
+  std::ranges::replace(*path, '\\', '/');
   if (path->starts_with('/')) {
     return {*path, "is absolute; use a path relative to the asset", true};
   }

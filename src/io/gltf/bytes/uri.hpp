@@ -19,7 +19,8 @@ struct DataUri {
 /// Splits a data URI. Returns nothing if the URI has no comma or an empty parameter.
 [[nodiscard]] std::optional<DataUri> split_data_uri(std::string_view uri);
 
-/// Decodes padded base64 (RFC 4648, section 4). Returns nothing if the text is not base64.
+/// Decodes base64 (RFC 4648, section 4). The padding may be omitted. Returns nothing if the text is
+/// not base64.
 [[nodiscard]] std::optional<std::string> decode_base64(std::string_view text);
 
 /// Decodes percent-encoding. Returns nothing if a % is not followed by two hexadecimal digits.
@@ -33,8 +34,8 @@ struct RelativePath {
 };
 
 /// Accepts relative paths (RFC 3986, section 4.2, path-noscheme). After "." and ".." are resolved
-/// by name, the path must stay in the asset's folder. It must not contain backslashes or control
-/// characters, not even percent-encoded.
+/// by name, the path must stay in the asset's folder. It must not contain control characters, not
+/// even percent-encoded. Backslashes separate folders as in Windows.
 [[nodiscard]] RelativePath relative_path(std::string_view uri);
 
 }  // namespace microtrace::io::gltf

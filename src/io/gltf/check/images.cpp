@@ -8,8 +8,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-void check_uri(const Asset& asset, const Element& at) {
+void check_uri(Asset& asset, const Element& at) {
   const std::string& uri = at.value->string;
+  if (!is_data_uri(uri) && uri.find('\\') != std::string::npos)
+    asset.tolerate(at, "has a backslash, which is read as /");
   if (is_data_uri(uri)) {
     if (!split_data_uri(uri)) asset.fail(at, "is not a data URI of the form data:TYPE;base64,DATA");
   } else if (const RelativePath path = relative_path(uri);

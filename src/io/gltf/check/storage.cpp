@@ -10,11 +10,17 @@ namespace {
 constexpr double kElementArrayBuffer = 34963;
 
 void check_view(Asset& asset, const Element& at) {
+  if (at.member("byteLength").value->number == 0)
+    asset.tolerate(at.member("byteLength"), "must be an integer of at least 1, is 0");
   const JsonValue* stride = at.value->find("byteStride");
   if (stride == nullptr) return;
-  if (std::fmod(stride->number, 4) != 0) {
-    asset.fail(at.member("byteStride"), "must be a multiple of 4");
+  if (stride->number == 0) {
+    asset.tolerate(at.member("byteStride"), "must not be 0; the data is read as tightly packed");
+    asset.drop(at, {"byteStride"});
+    return;
   }
+  if (stride->number < 4 || stride->number > 252 || std::fmod(stride->number, 4) != 0)
+    asset.tolerate(at.member("byteStride"), "must be a multiple of 4 between 4 and 252");
   if (stride->number > at.member("byteLength").value->number) {
     asset.fail(at.member("byteStride"), "is greater than byteLength");
   }

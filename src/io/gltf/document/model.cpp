@@ -21,10 +21,11 @@ namespace {
 constexpr std::array<std::string_view, 7> kParsedMembers = {
     "asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"};
 
-/// Members omitted from the text that tinygltf parses. Indices and sparse parts are read from the
-/// JSON instead, because tinygltf 2.7.0 rejects index accessors without a buffer view, which glTF
-/// allows, and stores sparse offsets as int.
-constexpr std::array<std::string_view, 4> kLeftOut = {"extensions", "extras", "indices", "sparse"};
+/// Members omitted from the text that tinygltf parses. Indices, sparse parts and strides are read
+/// from the JSON instead, because tinygltf 2.7.0 rejects index accessors without a buffer view,
+/// which glTF allows, stores sparse offsets as int, and rejects assets with wrong strides.
+constexpr std::array<std::string_view, 5> kLeftOut = {"extensions", "extras", "indices", "sparse",
+                                                      "byteStride"};
 
 /// Returns true if check_schema has removed the type of an accessor because it was unknown.
 bool is_unknown(const JsonValue& accessor) {
@@ -258,14 +259,17 @@ Model parse_model(const Asset& asset) {
   count_model(asset);
   tinygltf::Model parsed = parse(asset);
   Model model;
-  for (const tinygltf::BufferView& view : parsed.bufferViews) {
-    model.buffer_views.push_back({.buffer = static_cast<std::size_t>(view.buffer),
-                                  .offset = view.byteOffset,
-                                  .length = view.byteLength,
-                                  .stride = view.byteStride});
+  const std::vector<JsonValue>&views = asset.array("bufferViews"),
+        &accessors = asset.array("accessors"), &meshes = asset.array("meshes");
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const tinygltf::BufferView& view = parsed.bufferViews[i];
+    const JsonValue* const stride = views[i].find("byteStride");
+    model.buffer_views.push_back(
+        {.buffer = static_cast<std::size_t>(view.buffer),
+         .offset = view.byteOffset,
+         .length = view.byteLength,
+         .stride = stride != nullptr ? static_cast<std::size_t>(stride->number) : 0});
   }
-  const std::vector<JsonValue>&accessors = asset.array("accessors"),
-        &meshes = asset.array("meshes");
   for (std::size_t i = 0; i < accessors.size(); ++i) {
     model.accessors.push_back(accessor_of(parsed.accessors[i], accessors[i]));
   }

@@ -186,8 +186,10 @@ class ImageLoader {
       asset_.fail(at, "has more pixels than its header states or than fit in memory",
                   ErrorKind::limit);
     }
-    if (!decoded.image)
-      asset_.fail(at, "holds an image that can't be decoded: " + decoded.complaint);
+    if (!decoded.image) {
+      asset_.tolerate(at, "can't be decoded, so its textures are white: " + decoded.complaint);
+      return nullptr;
+    }
     if (!decoded.complaint.empty()) {
       asset_.tolerate(at, "holds an incomplete image: " + decoded.complaint);
     }

@@ -88,6 +88,8 @@ struct GltfFile::Content {
       asset.tolerate(asset.root(),
                      "chunks of the GLB file have lengths that are not multiples of 4");
     }
+    if (container.has_byte_order_mark)
+      asset.tolerate(asset.root(), "the JSON starts with a byte order mark");
     if (container.has_zero_padding) {
       asset.tolerate(asset.root(), "the JSON chunk of the GLB file is padded with zero bytes");
     }

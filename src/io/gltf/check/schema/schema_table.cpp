@@ -92,8 +92,8 @@ constexpr Rule kBufferRules[] = {
 constexpr Rule kViewRules[] = {
     index_of("buffer", "buffers", true),
     {.key = "byteOffset", .form = Form::integer, .min = 0},
-    {.key = "byteLength", .form = Form::integer, .required = true, .min = 1},
-    {.key = "byteStride", .form = Form::integer, .min = 4, .max = 252},
+    {.key = "byteLength", .form = Form::integer, .required = true, .min = 0},
+    {.key = "byteStride", .form = Form::integer, .min = 0},
     choice("target", kViewTargets),
 };
 
