@@ -24,8 +24,8 @@ class MeshChunks {
 
   /// Calls point(p) for all vertices of a placed mesh, in scene coordinates, except for chunks for
   /// whose box skips(box) is true. The box contains all finite vertices of the chunk. Begins with
-  /// the chunks that reach farthest along each axis, after which most others can be skipped. May
-  /// visit a chunk twice.
+  /// the chunks that reach farthest along each axis, after which most others can be skipped,
+  /// unless there are only a few. May visit a chunk twice.
   template <class Skips, class Point>
   void visit(const Mesh& mesh, const Skips& skips, const Point& point) const {
     const std::vector<Box> boxes = placed(*mesh.placement);
@@ -34,7 +34,9 @@ class MeshChunks {
       const std::size_t end = std::min(mesh.positions.size(), (i + 1) * kSize);
       for (std::size_t k = i * kSize; k < end; ++k) point(mesh.position(k));
     };
-    for (const std::size_t i : farthest(boxes)) visit_chunk(i);
+    constexpr std::size_t kFew = 6;
+    if (boxes.size() > kFew)
+      for (const std::size_t i : farthest(boxes)) visit_chunk(i);
     for (std::size_t i = 0; i < boxes.size(); ++i) visit_chunk(i);
   }
 

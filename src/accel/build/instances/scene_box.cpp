@@ -23,8 +23,9 @@ class BoxFinder {
       : instance_(instance), tree_(tree), mesh_(mesh) {}
 
   Box run() {
-    // Most of the tree is inside a box around the leaves that reach farthest along each axis.
-    for (int axis = 0; axis < 3; ++axis) {
+    // Most of a large tree is inside a box around the leaves that reach farthest along each axis.
+    constexpr std::size_t kFewBlocks = 6;
+    for (int axis = 0; axis < 3 && tree_.blocks.size() > kFewBlocks; ++axis) {
       descend(axis, false);
       descend(axis, true);
     }
