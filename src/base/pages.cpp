@@ -1,3 +1,5 @@
+#include "base/mapped_pages.hpp"
+
 #include <microtrace/page_allocator.hpp>
 
 #ifdef __linux__
@@ -30,6 +32,25 @@ void* allocate_pages(std::size_t bytes) {
 
 void release_pages(void* p, std::size_t bytes) noexcept {
   ::operator delete(p, alignment_of(bytes));
+}
+
+void* map_pages(std::size_t bytes) {
+#ifdef __linux__
+  void* const p =
+      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (p == MAP_FAILED) throw std::bad_alloc();
+  return p;
+#else
+  return allocate_pages(bytes);
+#endif
+}
+
+void unmap_pages(void* p, std::size_t bytes) noexcept {
+#ifdef __linux__
+  ::munmap(p, bytes);
+#else
+  release_pages(p, bytes);
+#endif
 }
 
 }  // namespace microtrace

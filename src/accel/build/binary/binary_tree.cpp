@@ -2,6 +2,7 @@
 
 #include "accel/build/binary/binning.hpp"
 #include "accel/build/wide/collapse.hpp"
+#include "base/mapped_pages.hpp"
 
 #include <algorithm>
 
@@ -26,6 +27,16 @@ struct Set {
   BinaryNode* node;
   unsigned depth, array;
   Box centroids;
+};
+
+// The two arrays, or the parts of them from the position `first` on.
+struct Arrays {
+  std::array<Reference*, 2> data;
+  std::uint32_t first = 0;
+
+  [[nodiscard]] std::span<Reference> of(const Set& set) const {
+    return {data[set.array] + (set.node->begin - first), set.node->count};
+  }
 };
 
 struct CentroidBoxes {
@@ -65,30 +76,23 @@ int bins_for(std::size_t count, int most) {
 class Builder {
  public:
   Builder(PageVector<Reference> references, int bins, WorkerPool& pool)
-      : arrays_{std::move(references), {}}, max_bins_(bins), pool_(pool) {
-    arrays_[1].resize(arrays_[0].size());
-    tree_.ids.resize(arrays_[0].size());
+      : references_(std::move(references)), max_bins_(bins), pool_(pool) {
+    tree_.ids.resize(references_.size());
   }
 
   BinaryTree build() {
-    std::vector<Set> open{whole()}, small;
-    area_ = AreaMeasure(tree_.root.box);
-    while (!open.empty()) {
-      const Set set = open.back();
-      open.pop_back();
-      if (set.node->count <= kSubtreeSize) {
-        small.push_back(set);
-        continue;
-      }
-      const auto [left, right] = split_together(set);
-      open.push_back(right);
-      open.push_back(left);
-    }
+    const std::vector<Set> small = split_until_small();
     tree_.subtrees.resize(small.size());
     std::vector<CollapseCosts> costs(small.size());
     pool_.run(small.size(), [&](std::size_t i) {
-      Bins bins;
-      costs[i] = build_alone(small[i], tree_.subtrees[i], bins);
+      const BinaryNode& node = *small[i].node;
+      tree_.subtrees[i].begin = node.begin;
+      PageVector<Reference> other(node.count);
+      Subtree subtree{
+          .arrays = {.data = {references_.data() + node.begin, other.data()}, .first = node.begin},
+          .arena = tree_.subtrees[i].nodes,
+          .bins = {}};
+      costs[i] = build_alone(small[i], subtree);
     });
     auto next = costs.cbegin();
     plan_top(tree_.root, next);
@@ -98,8 +102,38 @@ class Builder {
  private:
   using Halves = std::array<Set, 2>;
 
-  std::span<Reference> references(const Set& set) {
-    return {arrays_[set.array].data() + set.node->begin, set.node->count};
+  /// What a thread needs to build a subtree alone.
+  struct Subtree {
+    Arrays arrays;
+    NodeArena& arena;
+    Bins bins;
+  };
+
+  /// Splits the whole until each set is small enough for one thread. Their references are then all
+  /// in the first array, so that the second needs no memory any longer.
+  std::vector<Set> split_until_small() {
+    PageVector<Reference> other(references_.size() > kSubtreeSize ? references_.size() : 0);
+    const Arrays arrays{.data = {references_.data(), other.data()}};
+    std::vector<Set> open{whole(arrays)}, small;
+    area_ = AreaMeasure(tree_.root.box);
+    while (!open.empty()) {
+      const Set set = open.back();
+      open.pop_back();
+      if (set.node->count <= kSubtreeSize) {
+        small.push_back(set);
+        continue;
+      }
+      const auto [left, right] = split_together(set, arrays);
+      open.push_back(right);
+      open.push_back(left);
+    }
+    pool_.run(small.size(), [&](std::size_t i) {
+      if (small[i].array == 0) return;
+      const std::span<Reference> moved = arrays.of(small[i]);
+      small[i].array = 0;
+      std::ranges::copy(moved, arrays.of(small[i]).begin());
+    });
+    return small;
   }
 
   // Recomputes a set's boxes and weight.
@@ -113,10 +147,10 @@ class Builder {
     }
   }
 
-  Set whole() {
-    tree_.root.count = static_cast<std::uint32_t>(arrays_[0].size());
+  Set whole(const Arrays& arrays) {
+    tree_.root.count = static_cast<std::uint32_t>(references_.size());
     Set set{.node = &tree_.root, .depth = 0, .array = 0, .centroids = {}};
-    summarize(references(set), set);
+    summarize(arrays.of(set), set);
     return set;
   }
 
@@ -139,14 +173,14 @@ class Builder {
 
   // Splits a set into two halves of equal count, for sets whose centroids no plane separates or
   // whose depth is near the limit.
-  Halves halve(const Set& set, NodeArena& arena) {
+  static Halves halve(const Set& set, const Arrays& arrays, NodeArena& arena) {
     Split split;
     split.left_load.count = set.node->count / 2;
     split.right_load.count = set.node->count - split.left_load.count;
     Halves sets = halves(set, arena, split);
     for (Set& half : sets) {
       half.array = set.array;
-      summarize(references(half), half);
+      summarize(arrays.of(half), half);
     }
     return sets;
   }
@@ -155,25 +189,26 @@ class Builder {
     return set.depth + static_cast<unsigned>(std::bit_width(set.node->count)) >= kDepthLimit;
   }
 
-  Halves split_alone(const Set& set, NodeArena& arena, Bins& bins) {
+  Halves split_alone(const Set& set, Subtree& subtree) const {
+    auto& [arrays, arena, bins] = subtree;
     const BinMapping mapping(set.centroids, bins_for(set.node->count, max_bins_));
-    if (is_deep(set) || mapping.is_degenerate()) return halve(set, arena);
+    if (is_deep(set) || mapping.is_degenerate()) return halve(set, arrays, arena);
     bins.clear(mapping.bins());
-    bins.add(references(set), mapping);
+    bins.add(arrays.of(set), mapping);
     const Split split = bins.best_split(mapping.bins(), AreaMeasure(set.node->box));
-    if (!split.exists()) return halve(set, arena);
+    if (!split.exists()) return halve(set, arrays, arena);
     Halves sets = halves(set, arena, split);
-    const CentroidBoxes centroids = partition(
-        references(set), mapping, split, references(sets[0]).data(), references(sets[1]).data());
+    const CentroidBoxes centroids = partition(arrays.of(set), mapping, split,
+                                              arrays.of(sets[0]).data(), arrays.of(sets[1]).data());
     sets[0].centroids = centroids.left;
     sets[1].centroids = centroids.right;
     return sets;
   }
 
-  Halves split_together(const Set& set) {
+  Halves split_together(const Set& set, const Arrays& arrays) {
     const BinMapping mapping(set.centroids, max_bins_);
-    if (is_deep(set) || mapping.is_degenerate()) return halve(set, tree_.top);
-    const std::span<const Reference> all = references(set);
+    if (is_deep(set) || mapping.is_degenerate()) return halve(set, arrays, tree_.top);
+    const std::span<const Reference> all = arrays.of(set);
     const std::size_t chunks = (all.size() + kChunkSize - 1) / kChunkSize;
     const auto chunk = [&](std::size_t i) {
       return all.subspan(i * kChunkSize, std::min(kChunkSize, all.size() - i * kChunkSize));
@@ -186,7 +221,7 @@ class Builder {
     Bins sum = bins[0];
     for (std::size_t i = 1; i < chunks; ++i) sum.add(bins[i], mapping.bins());
     const Split split = sum.best_split(mapping.bins(), AreaMeasure(set.node->box));
-    if (!split.exists()) return halve(set, tree_.top);
+    if (!split.exists()) return halve(set, arrays, tree_.top);
 
     Halves sets = halves(set, tree_.top, split);
     std::vector<std::size_t> left_before(chunks);
@@ -197,9 +232,8 @@ class Builder {
     }
     std::vector<CentroidBoxes> centroids(chunks);
     pool_.run(chunks, [&](std::size_t i) {
-      centroids[i] =
-          partition(chunk(i), mapping, split, references(sets[0]).data() + left_before[i],
-                    references(sets[1]).data() + (i * kChunkSize - left_before[i]));
+      centroids[i] = partition(chunk(i), mapping, split, arrays.of(sets[0]).data() + left_before[i],
+                               arrays.of(sets[1]).data() + (i * kChunkSize - left_before[i]));
     });
     for (std::size_t i = 1; i < chunks; ++i) centroids[0].include(centroids[i]);
     sets[0].centroids = centroids[0].left;
@@ -209,17 +243,17 @@ class Builder {
 
   // Builds and plans a subtree recursively. The recursion is at most a few levels deeper than
   // kDepthLimit.
-  CollapseCosts build_alone(const Set& set, NodeArena& arena, Bins& bins) {
+  CollapseCosts build_alone(const Set& set, Subtree& subtree) {
     BinaryNode& node = *set.node;
     const bool of_one_kind = node.weight == node.count && node.weight <= kMaxLeafWeight;
     if (of_one_kind || node.count <= 1) {
-      const auto leaf = references(set);
+      const auto leaf = subtree.arrays.of(set);
       for (std::size_t i = 0; i < leaf.size(); ++i) tree_.ids[node.begin + i] = leaf[i].id();
       return costs_of_leaf(node, area_);
     }
-    const Halves sets = split_alone(set, arena, bins);
-    const CollapseCosts left = build_alone(sets[0], arena, bins);
-    return plan_collapse(node, area_, left, build_alone(sets[1], arena, bins));
+    const Halves sets = split_alone(set, subtree);
+    const CollapseCosts left = build_alone(sets[0], subtree);
+    return plan_collapse(node, area_, left, build_alone(sets[1], subtree));
   }
 
   // Plans the nodes above the subtrees, whose costs `next` yields from left to right.
@@ -229,7 +263,7 @@ class Builder {
     return plan_collapse(node, area_, left, plan_top(node.children[1], next));
   }
 
-  std::array<PageVector<Reference>, 2> arrays_;
+  PageVector<Reference> references_;
   BinaryTree tree_;
   AreaMeasure area_{Box()};
   int max_bins_;
@@ -240,11 +274,18 @@ class Builder {
 
 BinaryNode* NodeArena::allocate_pair() {
   if (used_ == kChunk) {
-    chunks_.push_back(std::make_unique<BinaryNode[]>(kChunk));
+    chunks_.emplace_back(static_cast<BinaryNode*>(map_pages(kChunk * sizeof(BinaryNode))));
     used_ = 0;
   }
   used_ += 2;
-  return &chunks_.back()[used_ - 2];
+  BinaryNode* const pair = &chunks_.back()[used_ - 2];
+  std::construct_at(pair);
+  std::construct_at(pair + 1);
+  return pair;
+}
+
+void NodeArena::Unmap::operator()(BinaryNode* chunk) const {
+  unmap_pages(chunk, kChunk * sizeof(BinaryNode));
 }
 
 BinaryTree build_binary_tree(PageVector<Reference> references, int bins, WorkerPool& pool) {

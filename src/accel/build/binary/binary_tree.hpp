@@ -46,22 +46,33 @@ static_assert(sizeof(BinaryNode) == 64);  // large scenes have one for each four
   return node.count == 1 && node.weight == kInstanceWeight;
 }
 
-/// Allocates nodes with stable addresses.
+/// Allocates nodes with stable addresses. Their memory returns to the system with the arena.
 class NodeArena {
  public:
   /// Allocates two consecutive nodes and returns the first.
   [[nodiscard]] BinaryNode* allocate_pair();
 
  private:
-  static constexpr std::size_t kChunk = 512;
-  std::vector<std::unique_ptr<BinaryNode[]>> chunks_;
+  static constexpr std::size_t kChunk = 4096;
+
+  struct Unmap {
+    void operator()(BinaryNode* chunk) const;
+  };
+
+  std::vector<std::unique_ptr<BinaryNode[], Unmap>> chunks_;
   std::size_t used_ = kChunk;
+};
+
+/// Nodes built by one thread, with ids from BinaryTree::ids[begin] on.
+struct BinarySubtree {
+  std::uint32_t begin = 0;
+  NodeArena nodes{};
 };
 
 struct BinaryTree {
   BinaryNode root;
-  NodeArena top;                    ///< nodes built by all threads together
-  std::vector<NodeArena> subtrees;  ///< nodes built by one thread each
+  NodeArena top;                        ///< nodes built by all threads together
+  std::vector<BinarySubtree> subtrees;  ///< in ascending order of `begin`
   PageVector<PrimitiveId> ids;
 };
 

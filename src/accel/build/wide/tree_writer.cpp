@@ -7,6 +7,7 @@
 #include <microtrace/error.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <span>
 
@@ -56,7 +57,7 @@ class Writer {
  public:
   Writer(const Primitives& primitives, Tree& tree) : primitives_(primitives), tree_(tree) {}
 
-  void write(const BinaryTree& planned, WorkerPool& pool) {
+  void write(BinaryTree& planned, WorkerPool& pool) {
     ids_ = planned.ids.data();
     const BinaryNode& root = planned.root;
     Places next;
@@ -73,9 +74,14 @@ class Writer {
     next.nodes = 1;
     tree_.root = 0;
     write_node(root, 0, next);
+    std::vector<std::atomic<std::uint32_t>> open(planned.subtrees.size());  // jobs of each subtree
+    for (const Job& job : jobs_) ++open[subtree_of(job, planned)];
     pool.run(jobs_.size(), [&](std::size_t i) {
+      const std::size_t subtree = subtree_of(jobs_[i], planned);
       Places begin = jobs_[i].begin;
       write_node(*jobs_[i].node, jobs_[i].slot, begin);
+      // The blocks take several times the memory of the nodes, which is released meanwhile.
+      if (--open[subtree] == 0) planned.subtrees[subtree].nodes = {};
     });
   }
 
@@ -86,6 +92,12 @@ class Writer {
     Places size, begin;
     std::size_t slot = 0;
   };
+
+  static std::size_t subtree_of(const Job& job, const BinaryTree& planned) {
+    const auto after =
+        std::ranges::upper_bound(planned.subtrees, job.node->begin, {}, &BinarySubtree::begin);
+    return static_cast<std::size_t>(after - planned.subtrees.begin()) - 1;
+  }
 
   static bool is_job(const BinaryNode& parent, const BinaryNode& child) {
     return parent.count > kJobSize && child.count <= kJobSize;
@@ -188,8 +200,7 @@ class Writer {
 
 }  // namespace
 
-void write_tree(const BinaryTree& planned, const Primitives& primitives, WorkerPool& pool,
-                Tree& tree) {
+void write_tree(BinaryTree& planned, const Primitives& primitives, WorkerPool& pool, Tree& tree) {
   Writer(primitives, tree).write(planned, pool);
 }
 
