@@ -92,6 +92,11 @@ class Array {
 
   [[nodiscard]] bool is_borrowed() const noexcept { return values_ && values_->is_borrowed(); }
 
+  /// True if the values are borrowed, or if copies of this array share them.
+  [[nodiscard]] bool is_shared() const noexcept {
+    return is_borrowed() || (values_ && !values_.is_only());
+  }
+
   [[nodiscard]] const T* data() const noexcept { return values_ ? values_->all().data() : nullptr; }
   [[nodiscard]] std::size_t size() const noexcept { return values_ ? values_->all().size() : 0; }
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
@@ -104,7 +109,7 @@ class Array {
   /// Returns the values as a modifiable vector. The reference is valid until the array is copied,
   /// assigned to, moved or destroyed. Values that are borrowed or shared are copied first.
   [[nodiscard]] std::vector<T>& edit() {
-    if (!values_ || is_borrowed() || !values_.is_only()) {
+    if (!values_ || is_shared()) {
       Handle mine(new Values);
       mine->own.assign(begin(), end());
       values_ = std::move(mine);

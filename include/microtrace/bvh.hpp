@@ -21,7 +21,8 @@ struct Box {
   Vec3 lo, hi;
 };
 
-/// The tree of a Bvh, which does not refer to the scene.
+/// The tree of a Bvh. It doesn't refer to the scene, but holds copies of the arrays of meshes that
+/// objects share (see Array), which recognize these meshes in a later scene.
 struct BvhTree;
 
 struct BvhOptions {
@@ -137,7 +138,8 @@ class MICROTRACE_EXPORT Bvh {
   [[nodiscard]] std::size_t memory() const;
 
   /// Returns the tree for BvhOptions::previous. It remains valid after this object and the scene
-  /// are destroyed.
+  /// are destroyed. Memory that arrays of placed meshes borrow must not change before the tree is
+  /// destroyed too.
   [[nodiscard]] std::shared_ptr<const BvhTree> tree() const;
 
  private:

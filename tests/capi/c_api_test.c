@@ -83,6 +83,7 @@ static void rays(const mt_scene* scene) {
       if (x > -1 && x < 1) CHECK(hits[i].t == 3 || (on_diagonal && hits[i].t == 2));
       if (x < -1 || x > 1) CHECK(hits[i].primitive == MT_NO_HIT);
     }
+    hits[0].primitive = 7;
     CHECK(mt_next(scene, all + kCount / 2, hits + kCount / 2, 1, threads, hits) == MT_OK);
     CHECK(hits[0].primitive == MT_NO_HIT);
   }

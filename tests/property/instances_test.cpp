@@ -165,29 +165,6 @@ TEST_P(Instances, QueriesOfPointsAndAllHitsEqualThoseOfCopies) {
   EXPECT_GT(hits, 1000U);
 }
 
-TEST(InstancesOfAnAnimation, KeepTheTreesOfTheirMeshes) {
-  Random random = traversal::announced_random(70);
-  const Mesh mesh = shared_mesh(random);
-  const auto frame = [&](double x) {
-    PlacedScenes scenes;
-    for (int i = 0; i < 3; ++i) {
-      Mesh placed = mesh;
-      placed.placement =
-          std::make_shared<const Placement>(glm::translate(DMat4(1), DVec3(x, 3 * i, 0)));
-      scenes.add(placed);
-    }
-    return scenes;
-  };
-  const PlacedScenes first = frame(0), second = frame(0.25);
-  const Bvh before(first.instanced);
-  const Bvh after(second.instanced, {.previous = before.tree()});
-  ASSERT_EQ(after.tree()->tree.instances.size(), 3U);
-  EXPECT_EQ(after.tree()->tree.meshes, before.tree()->tree.meshes);
-  const Bvh copies(second.baked);
-  for (const Ray& ray : rays_for(random, second.baked, 500))
-    ASSERT_TRUE(same(after.intersect(ray), copies.intersect(ray)));
-}
-
 TEST_P(Instances, BoxesOfOnePointFindTheTrianglesOfVertices) {
   Random random = traversal::announced_random(60 + static_cast<std::uint64_t>(GetParam()));
   std::size_t found = 0;

@@ -81,8 +81,8 @@ struct Tree {
   std::optional<RelativeCost> built_cost{};  ///< for a refitted tree, its cost when it was built
 };
 
-/// Builds or refits a tree, which does not refer to the scene. Throws Error (limit) if there are
-/// more primitives than 32-bit references can address.
+/// Builds or refits a tree, which refers to the scene only by its instances' placements. Throws
+/// Error (limit) if there are more primitives than 32-bit references can address.
 [[nodiscard]] Tree build_tree(const Primitives& primitives, BuildOptions options);
 
 }  // namespace microtrace

@@ -4,6 +4,7 @@
 #include "dataset/annotations/json_text.hpp"
 #include "dataset/annotations/mesh_points.hpp"
 #include "io/image/encode/png.hpp"
+#include "scene/support.hpp"
 
 #include <microtrace/camera.hpp>
 
@@ -148,6 +149,11 @@ BopFrames::BopFrames(const Scene& scene) {
   for (const Object& object : scene.objects) {
     DVec3 low(std::numeric_limits<double>::infinity()), high = -low;
     for (const Vec3& point : mesh_points(object.shape)) {
+      if (!is_finite(point))
+        throw Error(ErrorKind::usage, "",
+                    "object " + object.name +
+                        " has vertices that are not finite, which BOP can't describe; move or "
+                        "scale it, or choose other formats");
       low = glm::min(low, DVec3(point));
       high = glm::max(high, DVec3(point));
     }

@@ -93,10 +93,20 @@ std::optional<PreparedScene::Content::Recentered> PreparedScene::Content::recent
 std::shared_ptr<const PreparedScene::Content> PreparedScene::Content::widened(
     const Camera& camera, ImageSize size) const {
   MemoryAccount account(memory_.budget());
-  account.take(memory_of(*scene_), "points and lines as triangles");
+  account.take(memory_to_widen(*scene_), "points and lines as triangles");
   const auto scene = std::make_shared<Scene>(*scene_);
   widen_segments(*scene, camera, size);
-  return std::make_shared<const Content>(scene, options_, tables_, std::move(account));
+  BvhOptions options = options_;
+  {
+    const std::scoped_lock lock(widened_mutex_);
+    options.previous = widened_tree_;
+  }
+  auto result =
+      std::make_shared<const Content>(scene, std::move(options), tables_, std::move(account));
+  auto tree = result->bvh().tree();
+  const std::scoped_lock lock(widened_mutex_);
+  widened_tree_ = std::move(tree);
+  return result;
 }
 
 }  // namespace microtrace

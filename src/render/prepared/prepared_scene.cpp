@@ -36,7 +36,8 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, PrepareOptions 
   options.tables.reset();
   content_ = std::make_shared<const Content>(std::move(scene), std::move(tree), tables,
                                              MemoryAccount(options.memory));
-  tables->set_tree(content_->bvh().tree());
+  // Pictures of a scene with points or line segments have trees of their own.
+  if (!has_segments(content_->scene())) tables->set_tree(content_->bvh().tree());
 }
 
 const Scene& PreparedScene::scene() const {

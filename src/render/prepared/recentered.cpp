@@ -1,5 +1,7 @@
 #include "render/prepared/recentered.hpp"
 
+#include "scene/mesh/shared_meshes.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <type_traits>
@@ -47,7 +49,7 @@ bool for_each_point_of_shapes(AnyScene& scene, const F& f) {
 std::optional<PointBounds> bounds_of_points(const Scene& scene) {
   PointBounds bounds;
   const auto add = [&](const Vec3& p) { bounds.add(DVec3(p)); };
-  std::unordered_map<const Vec3*, PointBounds> boxes;  // of shared meshes, by their positions
+  std::unordered_map<ArrayKey, PointBounds, ArrayKey::Hash> boxes;  // by positions of shared meshes
   for (const Object& object : scene.objects) {
     const auto* mesh = std::get_if<Mesh>(&object.shape);
     if (mesh == nullptr || !mesh->placement) {
@@ -57,7 +59,7 @@ std::optional<PointBounds> bounds_of_points(const Scene& scene) {
       continue;
     }
     // There may be millions of instances, so the box of an instance is that of its mesh's corners.
-    const auto [box, is_new] = boxes.try_emplace(mesh->positions.data());
+    const auto [box, is_new] = boxes.try_emplace(ArrayKey(mesh->positions));
     if (is_new)
       for (const Vec3& p : mesh->positions) box->second.add(DVec3(p));
     if (mesh->positions.empty()) continue;

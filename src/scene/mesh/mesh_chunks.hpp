@@ -1,6 +1,8 @@
 #pragma once
 /// Visits the vertices of many placements of a mesh without reading all of them each time.
 
+#include "scene/mesh/shared_meshes.hpp"
+
 #include <microtrace/math.hpp>
 #include <microtrace/shape.hpp>
 
@@ -54,11 +56,11 @@ class MeshChunks {
 class ChunkedMeshes {
  public:
   [[nodiscard]] const MeshChunks& of(const Mesh& mesh) {
-    return chunks_.try_emplace(mesh.positions.data(), mesh).first->second;
+    return chunks_.try_emplace(ArrayKey(mesh.positions), mesh).first->second;
   }
 
  private:
-  std::unordered_map<const Vec3*, MeshChunks> chunks_;  // by the address of the positions
+  std::unordered_map<ArrayKey, MeshChunks, ArrayKey::Hash> chunks_;  // by the positions
 };
 
 }  // namespace microtrace

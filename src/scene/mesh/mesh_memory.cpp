@@ -27,4 +27,13 @@ std::uint64_t memory_of(const Scene& scene, PlacedMeshes placed) {
   return result;
 }
 
+std::uint64_t memory_to_widen(const Scene& scene) {
+  std::uint64_t result = scene.objects.size() * sizeof(Object);
+  for (const Object& object : scene.objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh != nullptr && !mesh->segments.empty()) result += memory_of(*mesh);
+  }
+  return result;
+}
+
 }  // namespace microtrace

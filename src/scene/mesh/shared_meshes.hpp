@@ -9,17 +9,32 @@
 
 namespace microtrace {
 
-/// Identifies the triangles of a mesh by the addresses of its arrays.
-struct MeshKey {
-  const void *positions, *triangles;
+/// Identifies the values of an array. Arrays of different sizes may begin at the same address.
+struct ArrayKey {
+  const void* data;
+  std::size_t size;
 
-  explicit MeshKey(const Mesh& mesh)
-      : positions(mesh.positions.data()), triangles(mesh.triangles.data()) {}
+  template <class T>
+  explicit ArrayKey(const Array<T>& array) : data(array.data()), size(array.size()) {}
+  bool operator==(const ArrayKey&) const = default;
+
+  struct Hash {
+    std::size_t operator()(const ArrayKey& key) const {
+      return std::hash<const void*>{}(key.data) * 31 + key.size;
+    }
+  };
+};
+
+/// Identifies the triangles of a mesh.
+struct MeshKey {
+  ArrayKey positions, triangles;
+
+  explicit MeshKey(const Mesh& mesh) : positions(mesh.positions), triangles(mesh.triangles) {}
   bool operator==(const MeshKey&) const = default;
 
   struct Hash {
     std::size_t operator()(const MeshKey& key) const {
-      const std::hash<const void*> hash;
+      const ArrayKey::Hash hash;
       return hash(key.positions) * 31 + hash(key.triangles);
     }
   };
@@ -43,9 +58,7 @@ class SharedMeshes {
 
  private:
   static bool has_same_arrays(const Mesh& a, const Mesh& b) {
-    const auto is_same = [](const auto& x, const auto& y) {
-      return x.data() == y.data() && x.size() == y.size();
-    };
+    const auto is_same = [](const auto& x, const auto& y) { return ArrayKey(x) == ArrayKey(y); };
     if (a.uv_sets.size() != b.uv_sets.size()) return false;
     for (std::size_t i = 0; i < a.uv_sets.size(); ++i)
       if (!is_same(a.uv_sets[i], b.uv_sets[i])) return false;

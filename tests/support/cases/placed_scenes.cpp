@@ -81,6 +81,15 @@ Mesh shared_mesh(Random& random) {
   return mesh;
 }
 
+/// Returns an array of some of the first elements, which are not copied.
+template <class T>
+Array<T> beginning_of(const Array<T>& array, Random& random) {
+  if (array.empty()) return {};
+  const auto owner = std::make_shared<const Array<T>>(array);
+  const int size = random.between(1, static_cast<int>(array.size()));
+  return Array<T>::borrow({owner->data(), static_cast<std::size_t>(size)}, owner);
+}
+
 PlacedScenes random_placed_scenes(Random& random, PlacementKind kind) {
   PlacedScenes scenes;
   for (int meshes = random.between(1, 2); meshes > 0; --meshes) {
@@ -88,6 +97,7 @@ PlacedScenes random_placed_scenes(Random& random, PlacementKind kind) {
     DMat4 last(1);
     for (int i = random.between(1, 6); i > 0; --i) {
       Mesh placed = mesh;
+      if (random.one_in(4)) placed.triangles = beginning_of(mesh.triangles, random);
       if (!random.one_in(8)) last = placement(random, kind);  // otherwise at the same place
       placed.placement = std::make_shared<const Placement>(last);
       scenes.add(placed);

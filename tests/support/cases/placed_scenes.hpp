@@ -41,7 +41,7 @@ struct PlacedScenes {
 [[nodiscard]] Mesh shared_mesh(Random& random);
 
 /// Returns scenes in which up to two meshes are placed up to six times each, some at the same
-/// place, with copies of the meshes and other shapes.
+/// place and some without their last triangles, with copies of the meshes and other shapes.
 [[nodiscard]] PlacedScenes random_placed_scenes(Random& random, PlacementKind kind);
 
 }  // namespace microtrace::adversarial

@@ -17,7 +17,7 @@ namespace {
 
 /// Upper bound of the memory for an instance: itself, its box, two references, two nodes of the
 /// binary tree, and its part of a node of the finished tree.
-constexpr std::uint64_t kBytesOfInstance = sizeof(Instance) + 304;
+constexpr std::uint64_t kBytesOfInstance = sizeof(Instance) + 32 + 64 + 128 + sizeof(WideNode) / 2;
 
 const Mesh* placed_mesh(const Object& object) {
   const auto* mesh = std::get_if<Mesh>(&object.shape);

@@ -3,6 +3,7 @@
 #include "accel/build/instances/scene_box.hpp"
 #include "accel/build/references/reference.hpp"
 #include "accel/build/wide/wide_tree.hpp"
+#include "scene/mesh/shared_meshes.hpp"
 
 #include <microtrace/primitives.hpp>
 #include <microtrace/scene.hpp>
@@ -19,12 +20,17 @@ namespace {
 
 constexpr double kUnit = 0x1p-24;  // unit roundoff of float32
 constexpr double kGreatestScale = 0x1p16;
+/// The errors of smaller coordinates, when a ray is transformed to the mesh, may underflow.
+constexpr double kLeastExtent = 0x1p-100;
 
 /// Returns a mesh with the same triangles as a scene of its own.
 Scene scene_of(const Mesh& mesh) {
   Scene scene;
-  scene.objects.push_back(
-      {.name = {}, .shape = Mesh{.positions = mesh.positions, .triangles = mesh.triangles}});
+  Mesh same;
+  // The scene exists only as long as the caller's mesh, whose arrays may have to remain unshared.
+  same.positions = Array<Vec3>::borrow({mesh.positions.data(), mesh.positions.size()});
+  same.triangles = decltype(mesh.triangles)::borrow({mesh.triangles.data(), mesh.triangles.size()});
+  scene.objects.push_back({.name = {}, .shape = std::move(same)});
   return scene;
 }
 
@@ -85,13 +91,16 @@ OwnedMeshTree::OwnedMeshTree(const Mesh& mesh, const BuildOptions& options)
            .blocks = tree.blocks.data(),
            .others = tree.others.data(),
            .root = tree.root,
-           .triangles = static_cast<std::uint32_t>(mesh.triangles.size())},
-      positions(mesh.positions),
-      triangles(mesh.triangles) {}
+           .triangles = static_cast<std::uint32_t>(mesh.triangles.size())} {
+  // The only owner of an array may still change it by a reference that edit() returned.
+  if (!mesh.positions.is_shared() || !mesh.triangles.is_shared()) return;
+  positions = mesh.positions;
+  triangles = mesh.triangles;
+}
 
 bool OwnedMeshTree::is_of(const Mesh& mesh) const {
-  return positions.data() == mesh.positions.data() && positions.size() == mesh.positions.size() &&
-         triangles.data() == mesh.triangles.data() && triangles.size() == mesh.triangles.size();
+  return !positions.empty() && ArrayKey(positions) == ArrayKey(mesh.positions) &&
+         ArrayKey(triangles) == ArrayKey(mesh.triangles);
 }
 
 std::optional<build::PlacedInstance> build::make_instance(const OwnedMeshTree& tree,
@@ -108,7 +117,7 @@ std::optional<build::PlacedInstance> build::make_instance(const OwnedMeshTree& t
   result.box = scene_box(instance, tree.tree, mesh);
   if (!fits_blocks(result.box)) return std::nullopt;
   const Bounds in_scene = bounds_of(result.box), &in_mesh = tree.tree.bounds;
-  double reach = 0;
+  double reach = 0, extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double t = placement.column(3)[axis];
     double size = std::abs(t);
@@ -118,10 +127,12 @@ std::optional<build::PlacedInstance> build::make_instance(const OwnedMeshTree& t
     for (int k = 0; k < 3; ++k)
       size += std::abs(placement.column(k)[axis]) * greatest(in_mesh.lo, in_mesh.hi, k);
     const double coordinate = greatest(in_scene.lo, in_scene.hi, axis);
+    extent = std::max(extent, coordinate);
     // The rounding of vertices, and the part of rho.
     const double rounding = 1.01 * kUnit * coordinate + 0x1p-49 * size + 0x1p-140;
     reach += 1.2 * rounding + 5 * kUnit * greatest(in_scene.lo, in_scene.hi, axis, t);
   }
+  if (extent < kLeastExtent) return std::nullopt;
   instance.reach = rounded_up(reach * (1 + 0x1p-20));
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k)

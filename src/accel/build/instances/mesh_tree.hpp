@@ -16,7 +16,8 @@ namespace microtrace {
 struct OwnedMeshTree {
   Tree tree;
   MeshTree view{};  ///< refers to `tree`
-  /// The arrays of the mesh. Their addresses identify it as long as this object exists.
+  /// The arrays of the mesh, if they are shared, so that their addresses identify the mesh as long
+  /// as this object exists.
   Array<Vec3> positions;
   Array<std::array<std::uint32_t, 3>> triangles;
 
@@ -36,8 +37,9 @@ struct PlacedInstance {
 };
 
 /// Returns the instance of a placed mesh. Nothing if the placement is singular or nearly so, if it
-/// scales by more than 2^16 or less than 2^-16, or if the result exceeds the range of blocks. The
-/// instance refers to `tree` and to the mesh's placement.
+/// scales by more than 2^16 or less than 2^-16, if the result exceeds the range of blocks, or if
+/// all of its coordinates are below 2^-100. The instance refers to `tree` and to the mesh's
+/// placement.
 [[nodiscard]] std::optional<PlacedInstance> make_instance(const OwnedMeshTree& tree,
                                                           const Mesh& mesh, PrimitiveId first_id);
 

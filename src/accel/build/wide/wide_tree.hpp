@@ -29,7 +29,8 @@ void set_box(WideNode& node, std::size_t i, const Box& box);
 [[nodiscard]] Box union_of_children(const WideNode& node);
 [[nodiscard]] Bounds bounds_of(const Box& box);
 
-/// Returns the kind of a child: 0 (a node), child_ref::kTriangles or child_ref::kOthers.
+/// Returns the kind of a child: 0 (a node), child_ref::kTriangles, child_ref::kOthers, or
+/// child_ref::kKind (an instance).
 [[nodiscard]] inline ChildRef kind_of(ChildRef ref) {
   return ref & child_ref::kKind;
 }
