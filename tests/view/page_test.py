@@ -8,6 +8,7 @@ MICROTRACE_SCREENSHOTS=FOLDER keeps screenshots.
 
 import base64
 import json
+import math
 import os
 import random
 import re
@@ -155,6 +156,21 @@ class PageTest(unittest.TestCase):
         eye = [float(number) for number in self.words(page)[1].split(",")]
         for number, expected in zip(eye, (0, 0, 10), strict=True):
             self.assertAlmostEqual(number, expected, 5)
+
+    def test_camera_far_from_the_origin(self):
+        scene = SCENES / "gltf/far.glb"
+        page = self.open(self.viewer(scene, "--size", "60x40", "--spp", "1"))
+        page.focus("#stage")
+        distances = []
+        for key in ("ArrowLeft", "ArrowUp", "Shift+ArrowRight"):
+            self.change(page, lambda key=key: page.keyboard.press(key))
+            words = self.words(page)
+            eye, target = ([float(number) for number in words[words.index(name) + 1].split(",")] for name in ("--eye", "--target"))
+            self.assertGreater(math.hypot(*target), 1e6)
+            distances.append(math.dist(eye, target))
+            self.assert_shows(page, scene)
+        for distance in distances:
+            self.assertAlmostEqual(distance / distances[0], 1, 6)
 
     def test_controls(self):
         scene = SCENES / "gltf/materials.glb"

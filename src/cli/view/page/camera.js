@@ -15,8 +15,15 @@ function rotate(v, axis, angle) {
   return add(add(scale(v, c), scale(cross(axis, v), s)), scale(axis, dot(axis, v) * (1 - c)));
 }
 
-/** Shortens a number to seven significant digits, which float32 pictures can't tell from more. */
-const shortened = (x) => String(Number(x.toPrecision(7)));
+/** Rounds a number to a decimal place of at most `resolution`; 17 digits identify a float64. */
+function rounded(x, resolution) {
+  const placesOf = (number) => Math.floor(Math.log10(Math.abs(number)));
+  const digits = placesOf(x) - placesOf(resolution) + 1;
+  return digits > 0 ? Number(x.toPrecision(Math.min(digits, 17))) : 0;
+}
+
+const text = (point, resolution) => point.map((x) => String(rounded(x, resolution))).join(",");
+const kResolution = 1e-7; // as a fraction of the distance, or of the length of a direction
 
 export class FreeCamera {
   constructor(eye, target, up, fov) {
@@ -34,10 +41,12 @@ export class FreeCamera {
   }
 
   get words() {
-    const point = (p) => p.map(shortened).join(",");
-    const words = ["--eye", point(this.eye), "--target", point(this.target)];
-    if (point(this.up) !== "0,1,0") words.push("--up", point(this.up));
-    return [...words, "--fov", shortened(this.fov)];
+    // Far from the origin, coordinates need more digits to place the eye as accurately about its target.
+    const resolution = kResolution * length(subtract(this.eye, this.target));
+    const words = ["--eye", text(this.eye, resolution), "--target", text(this.target, resolution)];
+    const up = text(this.up, kResolution);
+    if (up !== "0,1,0") words.push("--up", up);
+    return [...words, "--fov", text([this.fov], 1e-5)];
   }
 
   /** Turns the camera about the target by angles in radians. */
