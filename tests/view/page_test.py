@@ -277,10 +277,60 @@ class PageTest(unittest.TestCase):
         self.assertFalse(page.is_visible("#other"))
 
     def test_two_scenes(self):
-        page = self.open(self.viewer(SCENES / "perspective1.json", "--compare", SCENES / "perspective2.json"))
+        scenes = [SCENES / "gltf/moving.glb", SCENES / "gltf/cube.glb"]
+        page = self.open(self.viewer(scenes[0], "--compare", scenes[1], "--size", "64x48", "--spp", "1"))
         wait_until(lambda: "differ" in page.inner_text("#difference-text"))
+        for side, canvas in (("0", "#picture"), ("1", "#other")):
+            page.select_option("#side", side)
+            scene = scenes[int(side)]
+            self.assertEqual(shlex.split(page.inner_text("#command"))[1], str(scene))
+            self.assertEqual(page.inner_text("#name"), str(scene))
+            self.assertEqual(page.is_visible("#animation-section"), scene.stem == "moving")
+            self.assert_shows(page, scene, canvas)
+        # Only the scene that has the animation moves.
+        page.select_option("#side", "0")
+        self.change(page, lambda: page.locator("#time").fill("0.5"))
+        self.wait_done(page)
+        self.assertIn("--time 0.5", page.inner_text("#command"))
+        self.assert_shows(page, scenes[0])
         page.select_option("#side", "1")
-        self.assert_shows(page, SCENES / "perspective2.json", "#other")
+        self.assertNotIn("--time", page.inner_text("#command"))
+        self.change(page, lambda: page.select_option("#camera", "--view top"))
+        self.assert_shows(page, scenes[1], "#other")
+
+    def test_errors_of_two_scenes(self):
+        scenes = [self.folder / "a.json", self.folder / "b.json"]
+        for scene in scenes:
+            shutil.copy(SCENES / "perspective1.json", scene)
+        text = scenes[1].read_text()
+        page = self.open(self.viewer(scenes[0], "--compare", scenes[1], "--size", "64x48"))
+        self.wait_done(page)
+        page.select_option("#side", "0")
+        descriptions = []
+        page.on("request", lambda request: descriptions.append(request.url) if "/scene?" in request.url else None)
+        page.focus("#stage")
+        scenes[1].write_text(text + " ")
+        wait_until(lambda: page.wait_for_timeout(50) or descriptions)
+        for _ in range(3):
+            self.change(page, lambda: page.keyboard.press("ArrowLeft"))
+        self.assertEqual([url.split("?")[1] for url in descriptions], ["scene=1"])
+        # An error of the right scene stays while the left picture is drawn.
+        scenes[1].write_text(text[:-20])
+        page.wait_for_selector("#error:not([hidden])")
+        self.assertRegex(page.inner_text("#error"), r"^Right picture: .*b\.json")
+        before = int(page.get_attribute("body", "data-request"))
+        page.keyboard.press("ArrowLeft")
+        wait_until(lambda: int(page.get_attribute("body", "data-request")) > before)
+        self.wait_done(page, "error")
+        page.wait_for_timeout(300)
+        self.assertIn("b.json", page.inner_text("#error"))
+        self.assertEqual(page.get_attribute("body", "data-state"), "error")
+        scenes[1].write_text(text)
+        self.wait_done(page)
+        self.assertFalse(page.is_visible("#error"))
+        self.assert_shows(page, scenes[0])
+        page.click("#compare")
+        self.assertEqual(shlex.split(page.inner_text("#command"))[1], str(scenes[0]))
 
     def test_file_changes_and_errors(self):
         scene = self.folder / "scene.json"

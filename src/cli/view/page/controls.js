@@ -1,0 +1,64 @@
+// Shows a scene and the options of a picture in the controls.
+
+import { commandLine, fill, showOptions } from "./options.js";
+
+const byId = (id) => document.getElementById(id);
+
+function warningItem({ pointer, line, column, message }) {
+  const item = document.createElement("li");
+  const place = document.createElement("code");
+  place.textContent = pointer || `${line}:${column}`;
+  item.append(place, ` ${message}`);
+  return item;
+}
+
+function showScene(scene) {
+  document.title = `${scene.name} - microtrace`;
+  byId("name").textContent = scene.name;
+  byId("name").title = `${scene.objects} objects, ${scene.primitives} primitives, ${scene.lights} lights`;
+  fill(byId("integrator"), [...scene.integrators, "variance"].map((name) => [name]));
+  fill(byId("tonemap"), scene.tonemaps.map((name) => [name]));
+  fill(byId("variant"), scene.variants.map((name, i) => [name || String(i)]), "as in the file");
+  const cameras = scene.cameras.map((name, i) => [`--camera ${i}`, `camera ${name || i}`]);
+  const views = scene.views.map((name) => [`--view ${name}`, name]);
+  fill(byId("camera"), [...cameras, ...views, ["free", "free"]]);
+  fill(byId("animation"), scene.animations.map(({ name }, i) => [String(i), name || String(i)]), "none");
+  byId("variant-section").hidden = scene.variants.length === 0;
+  byId("animation-section").hidden = scene.animations.length === 0;
+  byId("warnings-section").hidden = scene.warnings.length === 0;
+  byId("warnings").replaceChildren(...scene.warnings.map(warningItem));
+}
+
+function showCamera(options) {
+  const named = ["--camera", "--view"].find((name) => options.get(name) !== undefined);
+  const wanted = named ? `${named} ${options.get(named)}` : "";
+  byId("camera").value = options.get("--eye") !== undefined ? "free" : wanted;
+  byId("fov").disabled = options.get("--eye") === undefined && options.get("--view") === undefined;
+}
+
+function showTime(scene, options) {
+  byId("animation").value = options.get("--animation") ?? (options.get("--time") !== undefined ? "0" : "");
+  const animation = scene.animations[Number(byId("animation").value)] ?? scene.animations[0];
+  byId("time").max = animation?.end ?? 1;
+  byId("time").value = options.get("--time") ?? 0;
+  byId("time-text").textContent = `${Number(byId("time").value).toFixed(2)} s`;
+}
+
+export function showCommand({ scene, options }) {
+  byId("command").textContent = commandLine(scene.name, options.words);
+}
+
+/** Shows the options of the side with this index, and first of all its scene if the controls show another one. */
+export function showControls(side, index, isOther) {
+  const { scene, options } = side;
+  if (isOther) showScene(scene);
+  showOptions(options);
+  // The variance is a channel beside the colors, not a method of rendering.
+  if (options.get("--aov") === "variance") byId("integrator").value = "variance";
+  const size = (options.get("--size") ?? `${scene.width}x${scene.height}`).split("x");
+  [byId("width").value, byId("height").value] = size;
+  showCamera(options);
+  showTime(scene, options);
+  showCommand(side);
+  byId("side").value = String(index);
+}

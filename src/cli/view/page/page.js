@@ -1,0 +1,271 @@
+// One picture of the scene, or two side by side, and what the user does with them.
+
+import { FreeCamera } from "./camera.js";
+import { Comparison } from "./compare.js";
+import { showCommand, showControls } from "./controls.js";
+import { Options } from "./options.js";
+import { Explanation } from "./pixel.js";
+import { addressOf, send, sendForJson } from "./server.js";
+import { Side } from "./side.js";
+
+const byId = (id) => document.getElementById(id);
+const stage = byId("stage");
+const canvases = [byId("picture"), byId("other")];
+
+export class Page {
+  sides = [];
+  comparison = new Comparison();
+  #editing = 0;
+  #shownScene = null;
+  #camera = null; // a FreeCamera while the mouse or the keys determine the camera
+  #message = ""; // an error of a command
+  #asked = null;
+  #explanation = new Explanation(byId("explanation"));
+  #playing = 0;
+
+  /** The side that is being edited. */
+  get side() {
+    return this.sides[this.#editing];
+  }
+
+  async start() {
+    const side = new Side(this, canvases[0], 0, new Options([]));
+    this.sides = [side];
+    await side.describe();
+    side.options = new Options(side.scene.words);
+    this.#showControls();
+    if (side.scene.scenes > 1) await this.#openSecond(1);
+    this.request();
+  }
+
+  #showControls() {
+    showControls(this.side, this.#editing, this.#shownScene !== this.side.scene);
+    this.#shownScene = this.side.scene;
+  }
+
+  /** Called when the description of a side's scene was read, or could not be read. */
+  described(side) {
+    if (side === this.side) this.#showControls();
+    this.#showState();
+  }
+
+  /** Called when a side shows another picture, or an error. */
+  shown(side) {
+    this.#showState();
+    if (side === this.side) this.#showStatus();
+    if (side.error === "") this.showComparison();
+  }
+
+  /** Shows the errors of all sides, and whether something is being drawn. */
+  #showState() {
+    const names = this.sides.length > 1 ? ["Left picture: ", "Right picture: "] : [""];
+    const errors = this.sides.map(({ error }, i) => error && `${names[i]}${error}`);
+    const text = [...errors, this.#message].filter((error) => error !== "").join("\n\n");
+    byId("error").textContent = text;
+    byId("error").hidden = text === "";
+    const state = errors.some((error) => error !== "") ? "error" : "done";
+    document.body.dataset.state = this.sides.every(({ isDone }) => isDone) ? state : "drawing";
+  }
+
+  #showStatus() {
+    const { status, error, hasPicture, canvas } = this.side;
+    if (error !== "") {
+      byId("status").textContent = hasPicture ? "The last picture is shown" : "No picture";
+      return;
+    }
+    const { samples, of, seconds, camera, width, height, done } = status;
+    const progress = done ? `${samples} ${samples === 1 ? "sample" : "samples"}, ${seconds.toFixed(2)} s` : `${status.preview ? 0 : samples} of ${of} samples`;
+    byId("status").textContent = `${width} x ${height}, ${progress}`;
+    byId("progress").value = done ? 1 : samples / of;
+    canvas.classList.toggle("small", canvas.width < stage.clientWidth / 2);
+    if (camera.fov !== undefined) {
+      byId("fov").value = camera.fov;
+      byId("fov-text").textContent = camera.fov.toFixed(1);
+    }
+    byId("x").max = width - 1;
+    byId("y").max = height - 1;
+    Object.assign(document.body.dataset, { request: status.request, samples, seconds });
+  }
+
+  /** Draws the pictures with their present options. */
+  request(isMoving = false) {
+    this.#message = "";
+    byId("marker").hidden = true;
+    for (const side of this.sides) side.request(isMoving);
+    document.body.dataset.state = "drawing";
+    showCommand(this.side);
+  }
+
+  /** Sets an option of the side that is being edited. */
+  set(name, value, isFinal = true) {
+    const { options } = this.side;
+    options.set(name, value);
+    if (name === "--integrator") {
+      const isVariance = value === "variance";
+      options.set("--integrator", isVariance ? "path" : value);
+      options.set("--aov", isVariance ? "variance" : "");
+    }
+    this.request(!isFinal);
+  }
+
+  setSize(width, height) {
+    for (const { options } of this.sides) options.set("--size", width && height ? `${width}x${height}` : "");
+    this.request();
+  }
+
+  setTime(time, isFinal = true) {
+    const animation = byId("animation").value;
+    for (const side of this.sides) {
+      if (side.scene.animations.length === 0 || !side.has("animations", animation)) continue;
+      side.options.set("--time", animation === "" ? "" : String(Number(Number(time).toFixed(4))));
+      side.options.set("--animation", animation);
+    }
+    this.#showControls();
+    this.request(!isFinal);
+  }
+
+  play() {
+    const end = Number(byId("time").max);
+    byId("play").textContent = this.#playing ? "Play" : "Pause";
+    if (this.#playing) {
+      clearInterval(this.#playing);
+      this.#playing = 0;
+      this.request();
+      return;
+    }
+    if (byId("animation").value === "") byId("animation").value = "0";
+    const start = performance.now() - 1000 * Number(byId("time").value);
+    this.#playing = setInterval(() => {
+      this.setTime(((performance.now() - start) / 1000) % (end || 1), false);
+    }, 1000 / 24);
+  }
+
+  /** Selects the default camera, a camera of the scene, or a view. */
+  selectCamera(words) {
+    this.#camera = null;
+    const [name, value] = words.split(" ");
+    for (const side of this.sides) {
+      // Two files may have different cameras.
+      if (name === "--camera" && !side.has("cameras", value)) continue;
+      for (const other of ["--camera", "--view", "--eye", "--target", "--up", "--fov"]) side.options.set(other, "");
+      if (value !== undefined) side.options.set(name, value);
+    }
+    if (words === "free") this.move(() => {}, true);
+    else this.request();
+    this.#showControls();
+  }
+
+  /** Changes the free camera, which starts from the camera of the picture. */
+  move(change, isFinal) {
+    const { status, scene } = this.side;
+    if (!status?.camera) return;
+    this.#camera ??= FreeCamera.from(status.camera, scene);
+    change(this.#camera);
+    const words = new Options(this.#camera.words);
+    for (const { options } of this.sides) {
+      for (const name of ["--camera", "--view"]) options.set(name, "");
+      for (const name of ["--eye", "--target", "--up", "--fov"]) options.set(name, words.get(name) ?? "");
+    }
+    this.#showControls();
+    this.request(!isFinal);
+  }
+
+  /** Explains a pixel of the picture; of both pictures if two are compared. */
+  async ask(x, y) {
+    this.#asked = { x, y };
+    byId("x").value = x;
+    byId("y").value = y;
+    this.#showMarker();
+    try {
+      const answers = await Promise.all(this.sides.map(({ options, number }) =>
+        sendForJson("POST", addressOf("explanation", { x: x + 0.5, y: y + 0.5, scene: number }), options.words.join("\n"))));
+      this.#explanation.show(answers);
+    } catch (error) {
+      this.#explanation.fail(error.message);
+    }
+  }
+
+  #showMarker() {
+    const marker = byId("marker");
+    const { canvas } = this.side;
+    const box = canvas.getBoundingClientRect();
+    const area = stage.getBoundingClientRect();
+    marker.style.left = `${box.left - area.left + ((this.#asked.x + 0.5) / canvas.width) * box.width}px`;
+    marker.style.top = `${box.top - area.top + ((this.#asked.y + 0.5) / canvas.height) * box.height}px`;
+    marker.hidden = false;
+  }
+
+  /** Returns the pixel below the pointer, or null. */
+  pixelAt(event) {
+    const { canvas } = this.side;
+    const box = canvas.getBoundingClientRect();
+    const x = Math.floor(((event.clientX - box.left) / box.width) * canvas.width);
+    const y = Math.floor(((event.clientY - box.top) / box.height) * canvas.height);
+    return x >= 0 && y >= 0 && x < canvas.width && y < canvas.height ? { x, y } : null;
+  }
+
+  /** Shows a second picture of the same scene beside the first, or hides it. */
+  async compare() {
+    const isOpening = this.sides.length === 1;
+    if (isOpening) {
+      await this.#openSecond(this.sides[0].number);
+      this.side.request();
+    } else {
+      this.sides.pop().close();
+      this.comparison.hide();
+      this.edit(0);
+    }
+    this.#showState();
+  }
+
+  /** Adds a side that shows the scene file with this number. */
+  async #openSecond(number) {
+    const side = this.sides[0].beside(canvases[1], number);
+    if (number !== this.sides[0].number) await side.describe();
+    this.sides.push(side);
+    this.edit(1);
+  }
+
+  edit(index) {
+    this.#editing = index;
+    const isComparing = this.sides.length > 1;
+    byId("wiper-row").hidden = !isComparing;
+    byId("compare").textContent = isComparing ? "End comparison" : "Compare";
+    this.#showControls();
+    if (this.side.status !== null) this.#showStatus();
+  }
+
+  showComparison() {
+    if (this.sides.length > 1) this.comparison.show(...this.sides);
+  }
+
+  async save() {
+    const button = byId("save");
+    button.disabled = true;
+    try {
+      const address = addressOf("file", { format: byId("format").value, scene: this.side.number });
+      const response = await send("POST", address, this.side.options.words.join("\n"));
+      const name = /filename="([^"]*)"/.exec(response.headers.get("Content-Disposition"))?.[1] ?? "picture";
+      const link = document.createElement("a");
+      link.href = URL.createObjectURL(await response.blob());
+      link.download = name;
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+    } catch (error) {
+      this.#message = error.message;
+      this.#showState();
+    } finally {
+      button.disabled = false;
+    }
+  }
+
+  async copy() {
+    const text = byId("command").textContent;
+    try {
+      await navigator.clipboard.writeText(text);
+    } catch {
+      // Browsers refuse in frames and for addresses that they don't trust. The text is then selected for the user.
+      getSelection().selectAllChildren(byId("command"));
+    }
+  }
+}

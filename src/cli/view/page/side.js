@@ -1,0 +1,93 @@
+// One of the pictures on the page: its scene, its options, and what was drawn last.
+
+import { LivePicture, addressOf, sendForJson } from "./server.js";
+
+/** Describes a scene that was never loaded. */
+const kNoScene = { name: "", words: [], cameras: [], variants: [], animations: [], integrators: [], tonemaps: [], views: [],
+  warnings: [], center: [0, 0, 0], distance: 1, width: 640, height: 480, scenes: 1 };
+
+export class Side {
+  scene = kNoScene; // the description of the scene file
+  status = null;
+  error = "";
+  isDone = false;
+  hasPicture = false;
+  #revision; // of the scene file
+
+  /** `scene` is the number of the scene file. The page has the functions described(side) and shown(side). */
+  constructor(page, canvas, number, options) {
+    Object.assign(this, { page, canvas, number, options });
+    this.live = new LivePicture(number, (bitmap, status) => this.#show(bitmap, status), (text, status) => this.#fail(text, status));
+  }
+
+  /** Returns a side with the same options. */
+  beside(canvas, number) {
+    const side = new Side(this.page, canvas, number, this.options.copy());
+    if (number === this.number) [side.scene, side.#revision] = [this.scene, this.#revision];
+    return side;
+  }
+
+  /** Draws the picture with its present options. */
+  request(isMoving = false) {
+    this.isDone = false;
+    this.live.request(this.options.words, isMoving);
+  }
+
+  close() {
+    this.live.close();
+    this.canvas.hidden = true;
+  }
+
+  /** Reads the description of the scene file. */
+  async describe() {
+    const revision = this.#revision;
+    try {
+      const scene = await sendForJson("POST", addressOf("scene", { scene: this.number }), this.options.words.join("\n"));
+      if (revision !== this.#revision) return; // the file has changed again
+      this.scene = scene;
+      this.#revision = scene.revision;
+    } catch (error) {
+      if (revision !== this.#revision) return;
+      this.error = error.message;
+    }
+    this.page.described(this);
+  }
+
+  /** Returns false if `number` is that of a camera or an animation that the list of the scene doesn't have. */
+  has(list, number) {
+    return !(Number(number) >= this.scene[list].length);
+  }
+
+  #show(bitmap, status) {
+    const { canvas } = this;
+    if (canvas.width !== status.width) canvas.width = status.width;
+    if (canvas.height !== status.height) canvas.height = status.height;
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    context.imageSmoothingEnabled = status.preview;
+    context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
+    canvas.hidden = false;
+    this.hasPicture = true;
+    this.#note(status, "");
+  }
+
+  #fail(text, status) {
+    if (this.status !== null && status.request < this.status.request) return;
+    this.#note({ ...this.status, ...status, done: true }, text);
+  }
+
+  #note(status, error) {
+    this.status = status;
+    this.error = error;
+    this.isDone = status.done;
+    this.page.shown(this);
+    this.#follow(status.revision);
+  }
+
+  /** Reads the description again if the file has changed. */
+  #follow(revision) {
+    if (revision === undefined || revision === this.#revision) return;
+    this.#revision = revision;
+    this.describe();
+  }
+}
