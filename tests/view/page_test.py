@@ -242,6 +242,30 @@ class PageTest(unittest.TestCase):
             wait_until(lambda page=page: "320.5, 240.5" in page.inner_text("#explanation"))
             self.keep(page, f"explained-{scene.stem}")
 
+    def test_crop(self):
+        scene = SCENES / "perspective1.json"
+        page = self.open(self.viewer(scene, "--size", "80x60", "--crop", "20,10,40,20"))
+        self.assertIn("20 x 10", page.inner_text("#status"))
+        self.assert_shows(page, scene)
+        box = page.locator("#picture").bounding_box()
+        for x, y in ((20, 10), (33, 14), (39, 19)):
+            place = (box["x"] + (x - 20 + 0.5) * box["width"] / 20, box["y"] + (y - 10 + 0.5) * box["height"] / 10)
+            page.mouse.click(*place)
+            wait_until(lambda pixel=f"{x + 0.5}, {y + 0.5}": pixel in page.inner_text("#explanation"))
+            marker = page.locator("#marker").bounding_box()
+            for center, length, expected in zip((marker["x"], marker["y"]), (marker["width"], marker["height"]), place, strict=True):
+                self.assertAlmostEqual(center + length / 2, expected, delta=2)
+        page.click("#compare")
+        wait_until(lambda: "equal" in page.inner_text("#difference-text"))
+        page.select_option("#integrator", "depth")
+        wait_until(lambda: "differ" in page.inner_text("#difference-text"))
+        first = re.search(r"the first is (\d+),(\d+)", page.inner_text("#difference-text"))
+        page.click("#ask-first")
+        wait_until(lambda: "Right picture" in page.inner_text("#explanation"))
+        self.assertGreaterEqual(int(first[1]), 20)
+        self.assertGreaterEqual(int(first[2]), 10)
+        self.assertIn(f"{first[1]}.5, {first[2]}.5", page.inner_text("#explanation"))
+
     def test_comparison(self):
         scene = SCENES / "perspective1.json"
         page = self.open(self.viewer(scene))

@@ -285,6 +285,12 @@ class Pictures(unittest.TestCase):
             sequence = [r.picture["sequence"] for r in responses]
             self.assertEqual(sequence, sorted(set(sequence)))
 
+    def test_crop(self):
+        with Viewer(PROGRAM, SCENES / "perspective1.json") as viewer:
+            last = viewer.draw(["--size", "64x48", "--crop", "8,10,40,30"])[-1]
+            self.assertEqual([last.picture[name] for name in ("x", "y", "width", "height")], [8, 10, 32, 20])
+            self.assertEqual(read_png(last.body)[:2], (32, 20))
+
     def test_variance(self):
         with Viewer(PROGRAM, SCENES / "gltf/lamps.glb") as viewer:
             words = ["--size", "64x48", "--spp", "16", "--integrator", "path", "--aov", "variance"]

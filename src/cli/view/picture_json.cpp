@@ -63,8 +63,12 @@ std::string json_of(const PictureDescription& description) {
 
 std::string json_of(const PictureDescription& description, const PictureJob& job) {
   Json json = object_of(description);
-  json["width"] = job.size.width;
-  json["height"] = job.size.height;
+  const PixelRect part =
+      job.options.crop.value_or(PixelRect{.x1 = job.size.width, .y1 = job.size.height});
+  json["x"] = part.x0;
+  json["y"] = part.y0;
+  json["width"] = part.size().width;
+  json["height"] = part.size().height;
   json["integrator"] = job.arguments.is_path_traced() ? "path" : "exact";
   json["camera"] = camera_json(job);
   return text_of(json, true);

@@ -22,7 +22,7 @@ struct PictureDescription {
 
 /// Returns an object in one line, of ASCII characters.
 [[nodiscard]] std::string json_of(const PictureDescription& description);
-/// Adds the picture's size and camera.
+/// Adds the part of the picture that is drawn, which --crop selects, and the camera.
 [[nodiscard]] std::string json_of(const PictureDescription& description, const PictureJob& job);
 /// Adds the member "sequence" to an object in JSON.
 [[nodiscard]] std::string with_sequence(const std::string& object, std::uint64_t sequence);

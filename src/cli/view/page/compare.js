@@ -3,8 +3,11 @@
 const byId = (id) => document.getElementById(id);
 const kAmplification = 8;
 
-/** Returns the difference as image data, the number of differing pixels, and the first of them in reading order. */
-function differenceOf(a, b) {
+/**
+ * Returns the difference as image data, the number of differing pixels, and the first of them in reading order.
+ * `origin` has the coordinates of the canvases' first pixel.
+ */
+function differenceOf(a, b, origin) {
   const width = a.width;
   const height = a.height;
   if (b.width !== width || b.height !== height) return null;
@@ -24,7 +27,7 @@ function differenceOf(a, b) {
     }
     if (!differs) continue;
     ++count;
-    first ??= { x: (i / 4) % width, y: Math.floor(i / 4 / width) };
+    first ??= { x: origin.x + ((i / 4) % width), y: origin.y + Math.floor(i / 4 / width) };
   }
   return { image, count, greatest, first, total: width * height };
 }
@@ -44,7 +47,7 @@ export class Comparison {
   show(left, right) {
     this.#showWiper(left.canvas, right.canvas);
     if (!left.hasPicture || !right.hasPicture) return;
-    const difference = differenceOf(left.canvas, right.canvas);
+    const difference = differenceOf(left.canvas, right.canvas, left.status);
     byId("difference-text").textContent = textOf(difference);
     this.first = difference?.first ?? null;
     byId("ask-first").disabled = this.first === null;

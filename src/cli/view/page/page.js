@@ -82,9 +82,15 @@ export class Page {
       byId("fov").value = camera.fov;
       byId("fov-text").textContent = camera.fov.toFixed(1);
     }
-    byId("x").max = width - 1;
-    byId("y").max = height - 1;
+    this.#limitPixel("x", status.x, width);
+    this.#limitPixel("y", status.y, height);
     Object.assign(document.body.dataset, { request: status.request, samples, seconds });
+  }
+
+  #limitPixel(name, first, length) {
+    const input = byId(name);
+    [input.min, input.max] = [first, first + length - 1];
+    if (Number(input.value) < first) input.value = first;
   }
 
   /** Draws the pictures with their present options. */
@@ -187,21 +193,22 @@ export class Page {
 
   #showMarker() {
     const marker = byId("marker");
-    const { canvas } = this.side;
+    const { canvas, status } = this.side;
     const box = canvas.getBoundingClientRect();
     const area = stage.getBoundingClientRect();
-    marker.style.left = `${box.left - area.left + ((this.#asked.x + 0.5) / canvas.width) * box.width}px`;
-    marker.style.top = `${box.top - area.top + ((this.#asked.y + 0.5) / canvas.height) * box.height}px`;
+    marker.style.left = `${box.left - area.left + ((this.#asked.x - status.x + 0.5) / status.width) * box.width}px`;
+    marker.style.top = `${box.top - area.top + ((this.#asked.y - status.y + 0.5) / status.height) * box.height}px`;
     marker.hidden = false;
   }
 
-  /** Returns the pixel below the pointer, or null. */
+  /** Returns the pixel below the pointer, or null. Its coordinates are those in the whole picture. */
   pixelAt(event) {
-    const { canvas } = this.side;
+    const { canvas, status } = this.side;
+    if (status?.width === undefined) return null;
     const box = canvas.getBoundingClientRect();
-    const x = Math.floor(((event.clientX - box.left) / box.width) * canvas.width);
-    const y = Math.floor(((event.clientY - box.top) / box.height) * canvas.height);
-    return x >= 0 && y >= 0 && x < canvas.width && y < canvas.height ? { x, y } : null;
+    const x = Math.floor(((event.clientX - box.left) / box.width) * status.width);
+    const y = Math.floor(((event.clientY - box.top) / box.height) * status.height);
+    return x >= 0 && y >= 0 && x < status.width && y < status.height ? { x: status.x + x, y: status.y + y } : null;
   }
 
   /** Shows a second picture of the same scene beside the first, or hides it. */
