@@ -14,6 +14,7 @@ import random
 import re
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -35,6 +36,19 @@ PIXELS = """canvas => {
   for (let i = 0; i < data.length; i += 8192) text += String.fromCharCode(...data.subarray(i, i + 8192));
   return btoa(text);
 }"""
+
+
+def write_two_animations(source, path):
+    """Writes the asset with another animation, "Second", which has only one channel of the first one."""
+    data = source.read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0]
+    asset = json.loads(data[20:20 + length])
+    first = asset["animations"][0]
+    asset["animations"].append({**first, "name": "Second", "channels": first["channels"][:1]})
+    text = json.dumps(asset).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + length:]
+    path.write_bytes(struct.pack("<4s2I", b"glTF", 2, 20 + len(text) + len(rest)) + struct.pack("<I4s", len(text), b"JSON") + text + rest)
 
 
 class PageTest(unittest.TestCase):
@@ -217,6 +231,23 @@ class PageTest(unittest.TestCase):
         page.wait_for_timeout(300)
         self.wait_done(page)
         self.assert_shows(page, scene)
+
+    def test_animations_are_selected_by_name(self):
+        scene = self.folder / "two.glb"
+        write_two_animations(SCENES / "gltf/moving.glb", scene)
+        for given, shown in (("Second", "Second"), ("1", "Second"), ("all", "all")):
+            with self.subTest(given=given):
+                page = self.open(self.viewer(scene, "--size", "60x40", "--spp", "1", "--animation", given, "--time", "0.25"))
+                self.assertEqual(page.eval_on_selector("#animation", "e => e.selectedOptions[0].text"), shown)
+                self.change(page, lambda page=page: page.locator("#time").fill("0.5"))
+                self.wait_done(page)
+                self.assertIn(f"--time 0.5 --animation {given}", " ".join(self.words(page)))
+                self.assert_shows(page, scene)
+                self.change(page, lambda page=page: page.select_option("#animation", "1"))
+                self.assertIn("--time 0 --animation 1", " ".join(self.words(page)))
+                self.change(page, lambda page=page: page.select_option("#animation", ""))
+                self.assertNotIn("--animation", self.words(page))
+                self.assertNotIn("--time", self.words(page))
 
     def test_pixels_are_explained_as_by_the_program(self):
         for name in ("perspective1.json", "gltf/textures.glb"):

@@ -83,11 +83,8 @@ function handleControls() {
   byId("camera").addEventListener("change", (event) => page.selectCamera(event.target.value));
   byId("fov").addEventListener("input", (event) => page.move((camera) => { camera.fov = Number(event.target.value); }, false));
   byId("fov").addEventListener("change", () => page.request());
-  byId("animation").addEventListener("change", () => page.setTime(0));
-  byId("time").addEventListener("input", (event) => {
-    if (byId("animation").value === "") byId("animation").value = "0";
-    page.setTime(event.target.value, false);
-  });
+  byId("animation").addEventListener("change", (event) => page.selectAnimation(event.target.value));
+  byId("time").addEventListener("input", (event) => page.setTime(event.target.value, false));
   byId("time").addEventListener("change", () => page.request());
   byId("ask").addEventListener("submit", (event) => {
     event.preventDefault();

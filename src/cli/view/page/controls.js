@@ -22,25 +22,41 @@ function showScene(scene) {
   const cameras = scene.cameras.map((name, i) => [`--camera ${i}`, `camera ${name || i}`]);
   const views = scene.views.map((name) => [`--view ${name}`, name]);
   fill(byId("camera"), [...cameras, ...views, ["free", "free"]]);
-  fill(byId("animation"), scene.animations.map(({ name }, i) => [String(i), name || String(i)]), "none");
+  const animations = scene.animations.map(({ name }, i) => [String(i), name || String(i)]);
+  fill(byId("animation"), animations.length > 1 ? [...animations, ["all", "all"]] : animations, "none");
   byId("variant-section").hidden = scene.variants.length === 0;
   byId("animation-section").hidden = scene.animations.length === 0;
   byId("warnings-section").hidden = scene.warnings.length === 0;
   byId("warnings").replaceChildren(...scene.warnings.map(warningItem));
 }
 
-function showCamera(options) {
-  const named = ["--camera", "--view"].find((name) => options.get(name) !== undefined);
-  const wanted = named ? `${named} ${options.get(named)}` : "";
-  byId("camera").value = options.get("--eye") !== undefined ? "free" : wanted;
+/** Returns the number of the list's entry that `text` names, or else the text, which may be a number. */
+function numberOf(names, text) {
+  const index = names.indexOf(text);
+  return index < 0 || text === "" ? text : String(index);
+}
+
+function showCamera(scene, options) {
+  const camera = options.get("--camera");
+  const view = options.get("--view");
+  let wanted = "";
+  if (options.get("--eye") !== undefined) wanted = "free";
+  else if (view !== undefined) wanted = `--view ${view}`;
+  else if (camera !== undefined) wanted = `--camera ${numberOf(scene.cameras, camera)}`;
+  byId("camera").value = wanted;
   byId("fov").disabled = options.get("--eye") === undefined && options.get("--view") === undefined;
 }
 
-function showTime(scene, options) {
-  byId("animation").value = options.get("--animation") ?? (options.get("--time") !== undefined ? "0" : "");
-  const animation = scene.animations[Number(byId("animation").value)] ?? scene.animations[0];
-  byId("time").max = animation?.end ?? 1;
-  byId("time").value = options.get("--time") ?? 0;
+function showTime({ animations }, options) {
+  const time = options.get("--time");
+  // Without --animation, the time is that of the first animation.
+  const wanted = options.get("--animation") ?? (time === undefined ? "" : "0");
+  const animation = numberOf(animations.map(({ name }) => name), wanted);
+  byId("animation").value = animation;
+  const first = Number(animation) || 0;
+  const shown = animation === "all" ? animations : animations.slice(first, first + 1);
+  byId("time").max = shown.length === 0 ? 1 : Math.max(...shown.map(({ end }) => end));
+  byId("time").value = time ?? 0;
   byId("time-text").textContent = `${Number(byId("time").value).toFixed(2)} s`;
 }
 
@@ -57,7 +73,7 @@ export function showControls(side, index, isOther) {
   if (options.get("--aov") === "variance") byId("integrator").value = "variance";
   const size = (options.get("--size") ?? `${scene.width}x${scene.height}`).split("x");
   [byId("width").value, byId("height").value] = size;
-  showCamera(options);
+  showCamera(scene, options);
   showTime(scene, options);
   showCommand(side);
   byId("side").value = String(index);

@@ -119,15 +119,25 @@ export class Page {
     this.request();
   }
 
-  setTime(time, isFinal = true) {
-    const animation = byId("animation").value;
-    for (const side of this.sides) {
-      if (side.scene.animations.length === 0 || !side.has("animations", animation)) continue;
-      side.options.set("--time", animation === "" ? "" : String(Number(Number(time).toFixed(4))));
-      side.options.set("--animation", animation);
+  /** Selects an animation by its number, "all", or "" for none, in scenes that have it. */
+  selectAnimation(value) {
+    for (const { options } of this.#animated(value)) {
+      options.set("--animation", value);
+      options.set("--time", value === "" ? "" : "0");
     }
     this.#showControls();
+    this.request();
+  }
+
+  setTime(time, isFinal = true) {
+    for (const { options } of this.#animated("")) options.set("--time", String(Number(Number(time).toFixed(4))));
+    this.#showControls();
     this.request(!isFinal);
+  }
+
+  /** Returns the sides whose scenes have an animation, with this number if there is one. */
+  #animated(number) {
+    return this.sides.filter((side) => side.scene.animations.length > 0 && side.has("animations", number));
   }
 
   play() {
@@ -139,7 +149,6 @@ export class Page {
       this.request();
       return;
     }
-    if (byId("animation").value === "") byId("animation").value = "0";
     const start = performance.now() - 1000 * Number(byId("time").value);
     this.#playing = setInterval(() => {
       this.setTime(((performance.now() - start) / 1000) % (end || 1), false);
