@@ -413,6 +413,35 @@ class PageTest(unittest.TestCase):
         self.assertFalse(page.is_visible("#error"))
         self.assert_shows(page, scene)
 
+    def test_reload_while_the_scene_is_broken(self):
+        scene, other = self.folder / "scene.glb", self.folder / "other.glb"
+        shutil.copy(SCENES / "gltf/lamps.glb", scene)
+        shutil.copy(SCENES / "gltf/lamps.glb", other)
+        data = scene.read_bytes()
+        options = ["--size", "60x40", "--spp", "2", "--env", "studio"]
+        page = self.open(self.viewer(scene, *options, "--compare", other))
+        self.wait_done(page)
+        words = self.words(page)
+        self.assertIn("--exposure", words)
+        scene.write_bytes(data[:200])
+        page.wait_for_selector("#error:not([hidden])")
+        page.reload()
+        page.wait_for_selector("#error:not([hidden])")
+        page.select_option("#side", "0")
+        self.assertEqual(shlex.split(page.inner_text("#command")), ["microtrace", str(scene), *options])
+        self.assertIn("scene.glb", page.inner_text("#error"))
+        self.assertIn(str(scene), page.title())
+        page.fill("#spp", "3")
+        page.press("#spp", "Enter")
+        scene.write_bytes(data)
+        self.wait_done(page)
+        wait_until(lambda: "--exposure" in self.words(page))
+        self.assertEqual(self.words(page), ["3" if word == "2" else word for word in words])
+        self.assert_shows(page, scene)
+        page.select_option("#side", "1")
+        self.assertEqual(self.words(page), words)
+        self.assert_shows(page, other, "#other")
+
     def test_reload_and_two_pages(self):
         viewer = self.viewer(SCENES / "perspective1.json")
         first, second = self.open(viewer), self.open(viewer)

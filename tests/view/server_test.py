@@ -342,7 +342,7 @@ class Pictures(unittest.TestCase):
         scene = self.folder / "scene.json"
         shutil.copy(SCENES / "perspective1.json", scene)
         text = scene.read_text()
-        with Viewer(PROGRAM, scene) as viewer:
+        with Viewer(PROGRAM, scene, "--integrator", "flat") as viewer:
             path = viewer.open()
             first = viewer.draw(["--size", "64x48"], path)[-1]
 
@@ -356,7 +356,9 @@ class Pictures(unittest.TestCase):
             self.assertEqual(broken.headers["Content-Type"], "application/json")
             self.assertRegex(broken.json["error"], r"scene\.json:\d+:\d+: /")
             self.assertIn("^", broken.json["error"])
-            self.assertEqual(viewer.request("POST", "scene", "").status, 422)
+            refused = viewer.request("POST", "scene", "")
+            self.assertEqual((refused.status, refused.json["words"], refused.json["scenes"]), (422, ["--integrator", "flat"], 1))
+            self.assertEqual((refused.json["name"], refused.json["error"]), (str(scene), broken.json["error"]))
             # Another picture, by a new file of the same name, as editors write it.
             changed = re.sub(r'("radius":\s*)[\d.]+', r"\g<1>0.3", text)
             self.assertNotEqual(changed, text)

@@ -55,6 +55,18 @@ Json names_of_option(std::string_view name) {
   return Json::array();
 }
 
+/// Returns what does not depend on the content of the scene file.
+Json object_of(const SceneDescription& description) {
+  return {{"name", description.name},
+          {"version", MICROTRACE_VERSION_TEXT},
+          {"revision", description.revision},
+          {"scenes", description.scenes},
+          {"words", description.words},
+          {"integrators", names_of_option("--integrator")},
+          {"tonemaps", names_of_option("--tonemap")},
+          {"views", names_of_option("--view")}};
+}
+
 }  // namespace
 
 std::string json_of(const PictureDescription& description) {
@@ -84,26 +96,19 @@ std::string error_json(const std::string& error) {
 
 std::string scene_json(const SceneDescription& description, const ShownScene& shown) {
   const Scene& scene = shown.prepared.scene();
-  Json json{{"name", description.name},
-            {"version", MICROTRACE_VERSION_TEXT},
-            {"revision", description.revision},
-            {"scenes", description.scenes},
-            {"format", shown.format == SceneFormat::gltf ? "gltf" : "json"},
-            {"words", description.words},
-            {"width", scene.size.width},
-            {"height", scene.size.height},
-            {"center", array_of(shown.center)},
-            {"distance", shown.distance},
-            {"objects", scene.objects.size()},
-            {"primitives", shown.prepared.bvh().primitives().count()},
-            {"lights", scene.lights.size()},
-            {"cameras", Json::array()},
-            {"variants", shown.choices.variants},
-            {"animations", Json::array()},
-            {"integrators", names_of_option("--integrator")},
-            {"tonemaps", names_of_option("--tonemap")},
-            {"views", names_of_option("--view")},
-            {"warnings", Json::array()}};
+  Json json = object_of(description);
+  json.update({{"format", shown.format == SceneFormat::gltf ? "gltf" : "json"},
+               {"width", scene.size.width},
+               {"height", scene.size.height},
+               {"center", array_of(shown.center)},
+               {"distance", shown.distance},
+               {"objects", scene.objects.size()},
+               {"primitives", shown.prepared.bvh().primitives().count()},
+               {"lights", scene.lights.size()},
+               {"cameras", Json::array()},
+               {"variants", shown.choices.variants},
+               {"animations", Json::array()},
+               {"warnings", Json::array()}});
   for (const NamedCamera& camera : scene.cameras) json["cameras"].push_back(camera.name);
   for (const SceneChoices::Animation& animation : shown.choices.animations)
     json["animations"].push_back({{"name", animation.name}, {"end", animation.end}});
@@ -114,6 +119,12 @@ std::string scene_json(const SceneDescription& description, const ShownScene& sh
                                 {"pointer", warning.pointer},
                                 {"message", warning.message}});
   }
+  return text_of(json);
+}
+
+std::string scene_json(const SceneDescription& description, const std::string& error) {
+  Json json = object_of(description);
+  json["error"] = error;
   return text_of(json);
 }
 

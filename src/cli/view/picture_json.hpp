@@ -38,5 +38,7 @@ struct SceneDescription {
 
 /// Describes the scene file: what can be selected, and what its warnings say.
 [[nodiscard]] std::string scene_json(const SceneDescription& description, const ShownScene& shown);
+/// Describes a scene that can't be loaded: the error, and what is known without the scene.
+[[nodiscard]] std::string scene_json(const SceneDescription& description, const std::string& error);
 
 }  // namespace microtrace::cli

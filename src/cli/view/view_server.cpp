@@ -206,13 +206,18 @@ std::vector<std::string> ViewServer::first_words(SceneSource& source) const {
 void ViewServer::describe_scene(const io::HttpRequest& request, const io::HttpReply& reply) {
   run_errand(reply, [this, request] {
     SceneSource& source = source_of(Query(request.query));
-    const std::uint64_t revision = source.revision();
-    const auto scene = source.get(parse_picture(arguments_, request.body).load);
-    return json_response(scene_json({.name = source.name(),
-                                     .words = first_words(source),
-                                     .revision = revision,
-                                     .scenes = sources_.size()},
-                                    *scene));
+    SceneDescription description{.name = source.name(),
+                                 .words = arguments_.view.words,
+                                 .revision = source.revision(),
+                                 .scenes = sources_.size()};
+    try {
+      const auto scene = source.get(parse_picture(arguments_, request.body).load);
+      description.words = first_words(source);
+      return json_response(scene_json(description, *scene));
+    } catch (const Error& error) {
+      // The page starts with the program's options and waits until the file is repaired.
+      return json_response(scene_json(description, error.what()), status_of(error.kind()));
+    }
   });
 }
 

@@ -24,6 +24,14 @@ export class Options {
     else this.#values.set(name, value);
   }
 
+  /** Changes the options that are as in `former` to those of `present`. */
+  follow(former, present) {
+    for (const name of new Set([...former.#values.keys(), ...present.#values.keys()])) {
+      if (present.#joined.has(name)) this.#joined.add(name);
+      if (this.get(name) === former.get(name)) this.set(name, present.get(name));
+    }
+  }
+
   get words() {
     return [...this.#values].flatMap(([name, value]) => {
       if (value === null) return [name];

@@ -18,6 +18,8 @@ export class Page {
   #editing = 0;
   #shownScene = null;
   #camera = null; // a FreeCamera while the mouse or the keys determine the camera
+  #hasStarted = false; // whether the scene was ever loaded
+  #first = new Options([]); // those with which the page starts
   #message = ""; // an error of a command
   #asked = null;
   #explanation = new Explanation(byId("explanation"));
@@ -32,8 +34,6 @@ export class Page {
     const side = new Side(this, canvases[0], 0, new Options([]));
     this.sides = [side];
     await side.describe();
-    side.options = new Options(side.scene.words);
-    this.#showControls();
     if (side.scene.scenes > 1) await this.#openSecond(1);
     this.request();
   }
@@ -45,8 +45,17 @@ export class Page {
 
   /** Called when the description of a side's scene was read, or could not be read. */
   described(side) {
+    if (side === this.sides[0] && !this.#hasStarted) this.#adoptOptions(side);
     if (side === this.side) this.#showControls();
     this.#showState();
+  }
+
+  /** Takes the program's options. Once the scene is loaded, they have its exposure. */
+  #adoptOptions({ scene, hasScene }) {
+    const present = new Options(scene.words);
+    for (const { options } of this.sides) options.follow(this.#first, present);
+    this.#first = present;
+    this.#hasStarted = hasScene;
   }
 
   /** Called when a side shows another picture, or an error. */

@@ -1,6 +1,6 @@
 // Requests to the server. Addresses are relative, so the page also works behind a proxy.
 
-/** Returns the response. Throws an Error with the server's message if the request failed. */
+/** Returns the response. Throws an Error with the server's message and the answer in JSON if the request failed. */
 export async function send(method, path, body) {
   let response;
   try {
@@ -10,13 +10,13 @@ export async function send(method, path, body) {
   }
   if (response.ok) return response;
   const text = await response.text();
-  let message = text;
+  let answer = {};
   try {
-    message = JSON.parse(text).error ?? text;
+    answer = JSON.parse(text);
   } catch {
     // The message is plain text.
   }
-  throw Object.assign(new Error(message), { status: response.status });
+  throw Object.assign(new Error(answer.error ?? text), { status: response.status, answer });
 }
 
 export async function sendForJson(method, path, body) {

@@ -2,7 +2,7 @@
 
 import { LivePicture, addressOf, sendForJson } from "./server.js";
 
-/** Describes a scene that was never loaded. */
+/** Describes a scene that was not loaded yet. */
 const kNoScene = { name: "", words: [], cameras: [], variants: [], animations: [], integrators: [], tonemaps: [], views: [],
   warnings: [], center: [0, 0, 0], distance: 1, width: 640, height: 480, scenes: 1 };
 
@@ -12,6 +12,7 @@ export class Side {
   error = "";
   isDone = false;
   hasPicture = false;
+  hasScene = false; // whether the scene file was ever loaded
   #revision; // of the scene file
 
   /** `scene` is the number of the scene file. The page has the functions described(side) and shown(side). */
@@ -23,7 +24,9 @@ export class Side {
   /** Returns a side with the same options. */
   beside(canvas, number) {
     const side = new Side(this.page, canvas, number, this.options.copy());
-    if (number === this.number) [side.scene, side.#revision] = [this.scene, this.#revision];
+    if (number === this.number) {
+      [side.scene, side.hasScene, side.#revision] = [this.scene, this.hasScene, this.#revision];
+    }
     return side;
   }
 
@@ -45,10 +48,13 @@ export class Side {
       const scene = await sendForJson("POST", addressOf("scene", { scene: this.number }), this.options.words.join("\n"));
       if (revision !== this.#revision) return; // the file has changed again
       this.scene = scene;
+      this.hasScene = true;
       this.#revision = scene.revision;
     } catch (error) {
       if (revision !== this.#revision) return;
       this.error = error.message;
+      if (!this.hasScene) this.scene = { ...kNoScene, ...error.answer };
+      this.#revision = error.answer?.revision ?? revision;
     }
     this.page.described(this);
   }
