@@ -214,6 +214,11 @@ class PageTest(unittest.TestCase):
             self.change(page, lambda name=name: page.select_option("#integrator", name))
             if name == "variance":
                 self.assertIn("--aov variance", " ".join(self.words(page)))
+                # The default format has no channels.
+                self.assertEqual(self.words(page)[-2:], ["-o", "materials.exr"])
+                command = shlex.split(page.inner_text("#command"))
+                subprocess.run([PROGRAM, *command[1:], "-q"], check=True, cwd=self.folder)
+                self.assertTrue((self.folder / "materials.exr").exists())
             else:
                 self.assert_shows(page, scene)
 

@@ -258,7 +258,8 @@ class Pictures(unittest.TestCase):
             for extension in ("txt", "", "../png", "PNG"):
                 self.assertEqual(viewer.request("POST", f"file?format={extension}", "\n".join(SMALL)).status, 422, extension)
             refused = viewer.request("POST", "file?format=png", "\n".join(words))
-            self.assertEqual((refused.status, "channels" in refused.json["error"]), (422, True))
+            self.assertEqual((refused.status, refused.json["error"]),
+                             (422, ".png stores only colors, without the channels of --aov; choose exr"))
 
     def test_options_of_the_program_are_those_of_the_page(self):
         with Viewer(PROGRAM, SCENES / "gltf/cube.glb", "--spp", "3", "--size", "40x30", "--view", "front", "-t", "1") as viewer:
@@ -294,10 +295,18 @@ class Pictures(unittest.TestCase):
     def test_variance(self):
         with Viewer(PROGRAM, SCENES / "gltf/lamps.glb") as viewer:
             words = ["--size", "64x48", "--spp", "16", "--integrator", "path", "--aov", "variance"]
-            _, _, samples = read_png(viewer.draw(words)[-1].body)
+            shown = read_png(viewer.draw(words)[-1].body)
+            samples = shown[2]
             self.assertEqual(samples[0::3], samples[1::3])
             self.assertGreater(max(samples), 200)
             self.assertGreater(len(set(samples)), 50)
+            # PNG has no channels and is the shown picture; EXR has the channel.
+            saved = viewer.request("POST", "file?format=png", "\n".join(words))
+            self.assertEqual((saved.status, read_png(saved.body)), (200, shown))
+            saved = viewer.request("POST", "file?format=exr", "\n".join(words))
+            self.assertEqual(saved.body, self.program_picture(SCENES / "gltf/lamps.glb", words, "expected.exr"))
+            last = viewer.draw([*words[:-1], "variance,id"])[-1]
+            self.assertEqual(last.headers["Content-Type"], "image/png", last.body)
 
     def test_explanation_is_the_programs(self):
         for scene, words in (("perspective1.json", []), ("gltf/textures.glb", ["--view", "30,20"])):

@@ -83,7 +83,7 @@ Film render(const PictureJob& job) {
 }
 
 bool shows_variance(const PictureJob& job) {
-  return job.options.sampled_aovs == std::vector{SampledAov::variance};
+  return job.options.aovs.empty() && job.options.sampled_aovs == std::vector{SampledAov::variance};
 }
 
 Film deviation_picture(const Film& film) {

@@ -61,7 +61,7 @@ function showTime({ animations }, options) {
 }
 
 export function showCommand({ scene, options }) {
-  byId("command").textContent = commandLine(scene.name, options.words);
+  byId("command").textContent = commandLine(scene.name, options);
 }
 
 /** Shows the options of the side with this index, and first of all its scene if the controls show another one. */

@@ -49,8 +49,12 @@ function quoted(word) {
   return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
-export function commandLine(scene, words) {
-  return ["microtrace", scene, ...words].map(quoted).join(" ");
+/** Returns the command line that draws a picture of the scene file. */
+export function commandLine(scene, options) {
+  const words = ["microtrace", scene, ...options.words];
+  // The default format has no channels. The name is otherwise the default one.
+  if (options.get("--aov") !== undefined) words.push("-o", `${scene.replace(/^.*\//, "").replace(/(?<=.)\.[^.]*$/, "")}.exr`);
+  return words.map(quoted).join(" ");
 }
 
 /** Fills a selection with values, after one for the default. */
