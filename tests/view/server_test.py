@@ -308,6 +308,13 @@ class Pictures(unittest.TestCase):
             last = viewer.draw([*words[:-1], "variance,id"])[-1]
             self.assertEqual(last.headers["Content-Type"], "image/png", last.body)
 
+    def test_time_limit(self):
+        with Viewer(PROGRAM, SCENES / "gltf/lamps.glb") as viewer:
+            last = viewer.draw(["--size", "320x240", "--spp", "65536", "--time-limit", "0.3"])[-1]
+            self.assertEqual((last.picture["of"], last.picture["done"]), (65536, True))
+            self.assertLess(last.picture["samples"], 65536)
+            self.assertGreater(last.picture["samples"], 0)
+
     def test_explanation_is_the_programs(self):
         for scene, words in (("perspective1.json", []), ("gltf/textures.glb", ["--view", "30,20"])):
             with Viewer(PROGRAM, SCENES / scene) as viewer:

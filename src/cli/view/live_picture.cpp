@@ -179,9 +179,11 @@ void LivePicture::draw_samples(PictureJob& job, const Request& request) {
       job.options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none;
   Clock::time_point published = Clock::now();
   Clock::duration cost{0};
+  std::uint32_t taken = job.options.samples;  // --time-limit may end the picture earlier
   if (job.integrator->is_random()) {
     if (!job.options.passes) job.options.passes.emplace();
     job.options.passes->after_each = [&](const SampleSums& sums) {
+      taken = sums.count();
       if (sums.count() == job.options.samples || !is_awaited()) return;
       const Clock::time_point start = Clock::now();
       if ((start - published) * kPublishingShare < cost) return;
@@ -199,7 +201,7 @@ void LivePicture::draw_samples(PictureJob& job, const Request& request) {
   }
   Film film = render(job);
   if (shows_variance(job)) film = deviation_picture(film);
-  publish(film, job, request, {.samples = job.options.samples, .is_done = true});
+  publish(film, job, request, {.samples = taken, .is_done = true});
 }
 
 void LivePicture::publish(const Film& film, const PictureJob& job, const Request& request,
