@@ -56,7 +56,9 @@ nb::tuple read(std::vector<std::string> words) {
     const ReadFiles files;
     auto read = std::make_unique<Dataset>(std::move(words), fs::path(), fs::path());
     read->dataset().read_all();
-    names.assign(files.names().begin(), files.names().end());
+    for (const auto& [name, state] : files.states()) {
+      if (state != FileState{}) names.push_back(name);
+    }
     return read;
   }();
   return nb::make_tuple(std::move(dataset), names);

@@ -28,6 +28,14 @@ std::optional<FileIdentity> identity_of(const struct stat& status) {
   return FileIdentity{status.st_dev, status.st_ino};
 }
 
+FileState state_of(const struct stat& status) {
+  if (!S_ISREG(status.st_mode)) return {};
+  return {.identity = {status.st_dev, status.st_ino},
+          .size = status.st_size,
+          .seconds = status.st_mtim.tv_sec,
+          .nanoseconds = status.st_mtim.tv_nsec};
+}
+
 constexpr std::size_t kChunk = std::size_t{64} * 1024;
 
 [[noreturn]] void fail(const std::string& name, std::string what, int code) {
@@ -54,6 +62,8 @@ class Descriptor {
 
 Descriptor open_file(const std::filesystem::path& path, int flags) {
   ConfinedReads::require(path, std::nullopt);
+  // Before the file is opened, so that later changes are noticed. The file may be missing.
+  note_unread_file(path);
   const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | flags);
   if (number < 0) fail(path.string(), "can't be opened", errno);
   return Descriptor(number);
@@ -83,8 +93,7 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) fail(name, "can't be read", errno);
   if (S_ISDIR(status.st_mode)) throw Error(ErrorKind::io, name, "is a directory, not a file");
-  if (const auto file = identity_of(status); file && files_read != nullptr)
-    files_read->note(*file, name);
+  if (files_read != nullptr) files_read->note(name, state_of(status));
   const std::size_t claimed =
       S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
   if (claimed > limit) fail_too_large(name, limit);
@@ -111,8 +120,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit,
 }
 
 void note_unread_file(const std::filesystem::path& path) {
-  if (files_read == nullptr) return;
-  if (const auto file = microtrace::identity_of(path)) files_read->note(*file, path.string());
+  if (files_read != nullptr) files_read->note(path.string(), microtrace::state_of(path));
 }
 
 std::string read_regular_file(const std::filesystem::path& path, std::size_t limit) {
@@ -153,6 +161,11 @@ ReadDigest::~ReadDigest() {
 std::optional<FileIdentity> identity_of(const std::filesystem::path& path) {
   const auto status = io::status_of_target(path);
   return status ? io::identity_of(*status) : std::nullopt;
+}
+
+FileState state_of(const std::filesystem::path& path) {
+  const auto status = io::status_of_target(path);
+  return status ? io::state_of(*status) : FileState{};
 }
 
 ReadFiles::ReadFiles() : former_(io::files_read) {

@@ -3,17 +3,21 @@
 usage: server_test.py PROGRAM SOURCE_FOLDER [unittest options]
 """
 
+import array
 import json
 import os
 import random
 import re
 import shutil
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from viewer import Viewer, read_png, wait_until
@@ -47,6 +51,36 @@ def raw(viewer, request, timeout=30):
 
 def status(answer):
     return int(answer.split()[1]) if answer.startswith(b"HTTP/1.1 ") else None
+
+
+def write_color(path, number):
+    """Writes a PNG file with one pixel, under another name first."""
+    def chunk(kind, content):
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+    color = bytes([0, 7 * number % 256, 100, 255 - number % 256])
+    temporary = path.with_suffix(".new")
+    temporary.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", 1, 1, 8, 2, 0, 0, 0)) +
+                          chunk(b"IDAT", zlib.compress(color)) + chunk(b"IEND", b""))
+    os.replace(temporary, path)
+
+
+def write_textured_grid(path, n):
+    """Writes a glTF asset of 2 (n - 1)^2 triangles with the texture t.png, which takes some time to load."""
+    points = array.array("f", (x for i in range(n * n) for x in (i % n / n, i // n / n, 0)))
+    coordinates = array.array("f", (x for i in range(n * n) for x in (i % n / n, i // n / n)))
+    corners = array.array("I", (x for i in range(n * (n - 1)) if i % n < n - 1 for x in (i, i + 1, i + n, i + 1, i + n + 1, i + n)))
+    parts = [part.tobytes() for part in (points, coordinates, corners)]
+    path.with_suffix(".bin").write_bytes(b"".join(parts))
+    kinds = [(5126, n * n, "VEC3"), (5126, n * n, "VEC2"), (5125, len(corners), "SCALAR")]
+    accessors = [{"bufferView": i, "componentType": kind, "count": count, "type": name} for i, (kind, count, name) in enumerate(kinds)]
+    accessors[0].update(min=[0, 0, 0], max=[max(points), max(points), 0])
+    primitive = {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}
+    path.write_text(json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [primitive]}], "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "textures": [{"source": 0}], "images": [{"uri": "t.png"}], "accessors": accessors,
+        "bufferViews": [{"buffer": 0, "byteOffset": sum(map(len, parts[:i])), "byteLength": len(part)} for i, part in enumerate(parts)],
+        "buffers": [{"uri": path.with_suffix(".bin").name, "byteLength": sum(map(len, parts))}]}))
 
 
 class Access(unittest.TestCase):
@@ -391,6 +425,30 @@ class Pictures(unittest.TestCase):
             self.assertIn("scene.json", missing.json["error"])
             scene.write_text(text)
             self.assertEqual(read_png(next_after(missing).body), read_png(first.body))
+
+    def test_texture_that_changes_during_loading(self):
+        scene, words = self.folder / "scene.gltf", ["--size", "16x12", "--integrator", "albedo", "--view", "front"]
+        write_textured_grid(scene, 400)
+        with ThreadPoolExecutor() as pool:
+            opening = pool.submit(Viewer, PROGRAM, scene, *words)
+            count = 0
+            while not opening.done():
+                count += 1
+                write_color(self.folder / "t.png", count)
+                time.sleep(0.01)
+            with opening.result() as viewer:
+                path = viewer.open()
+                expected = read_png(self.program_picture(scene, words))
+                wait_until(lambda: read_png(viewer.draw(words, path)[-1].body) == expected, 10)
+                # A file that was missing when the scene was loaded.
+                (self.folder / "t.png").unlink()
+                wait_until(lambda: read_png(viewer.draw(words, path)[-1].body) != expected, 10)
+                scene.write_text(scene.read_text().replace("t.png", "u.png"))
+                time.sleep(1)
+                viewer.draw(words, path)
+                write_color(self.folder / "u.png", 1)
+                expected = read_png(self.program_picture(scene, words))
+                wait_until(lambda: read_png(viewer.draw(words, path)[-1].body) == expected, 10)
 
     def test_pictures_are_independent_and_limited(self):
         with Viewer(PROGRAM, SCENES / "perspective1.json") as viewer:

@@ -4,7 +4,6 @@
 #include "cli/pictures/environment.hpp"
 
 #include <microtrace/framing.hpp>
-#include <microtrace/read_files.hpp>
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
@@ -26,7 +25,7 @@ SceneSource::SceneSource(const Arguments& arguments)
       options_(arguments.load),
       path_(arguments.scene),
       threads_(arguments.threads != 0 ? arguments.threads : default_threads()),
-      files_{arguments.scene} {
+      files_{{arguments.scene, state_of(arguments.scene)}} {
   options_.detail = SurfaceDetail::all;  // the page selects the integrator
   options_.memory = &memory_;
 }
@@ -62,9 +61,9 @@ void SceneSource::forget_stale() {
   loaded_revision_ = revision;
 }
 
-void SceneSource::note_files(const std::set<std::string>& names) {
+void SceneSource::note_files(const std::map<std::string, FileState>& states) {
   const std::scoped_lock lock(files_mutex_);
-  files_.insert(names.begin(), names.end());
+  files_.insert(states.begin(), states.end());
 }
 
 std::shared_ptr<const ShownScene> SceneSource::load(const Key& key) {
@@ -78,7 +77,7 @@ std::shared_ptr<const ShownScene> SceneSource::load(const Key& key) {
       file_key_ = key;
     }
     LoadedScene loaded = file_->at(key.time);
-    note_files(reading.names());
+    note_files(reading.states());
     PrepareOptions prepare{.threads = threads_, .memory = &memory_};
     // Refitting the tree of the previous time is faster than building another one.
     if (!scenes_.empty()) prepare.tables = scenes_.front().second->prepared.tables();
@@ -88,7 +87,7 @@ std::shared_ptr<const ShownScene> SceneSource::load(const Key& key) {
                      .warnings = std::move(loaded.warnings),
                      .choices = file_->choices()}));
   } catch (...) {
-    note_files(reading.names());
+    note_files(reading.states());
     file_.reset();
     throw;
   }
@@ -105,7 +104,7 @@ std::optional<Environment> SceneSource::environment(const EnvironmentOptions& op
   const auto known =
       std::ranges::find(environments_, name, [](const auto& entry) { return entry.first; });
   if (known != environments_.end()) return known->second;
-  note_files({name});
+  note_files({{name, state_of(name)}});
   std::optional<Environment> environment = load_environment(options, warnings, memory_);
   environments_.emplace_front(name, *environment);
   if (environments_.size() > kEnvironments) environments_.pop_back();
@@ -116,7 +115,7 @@ void SceneSource::discard() {
   ++revision_;
 }
 
-std::set<std::string> SceneSource::files() const {
+std::map<std::string, FileState> SceneSource::files() const {
   const std::scoped_lock lock(files_mutex_);
   return files_;
 }

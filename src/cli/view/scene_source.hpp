@@ -8,14 +8,15 @@
 #include <microtrace/io.hpp>
 #include <microtrace/memory.hpp>
 #include <microtrace/prepared_scene.hpp>
+#include <microtrace/read_files.hpp>
 
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,8 @@ class SceneSource {
   /// The number of calls of discard() so far.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
-  /// The files that were read so far.
-  [[nodiscard]] std::set<std::string> files() const;
+  /// The files that were read so far, with their states from before they were first read.
+  [[nodiscard]] std::map<std::string, FileState> files() const;
 
   [[nodiscard]] const std::string& name() const { return path_; }
   [[nodiscard]] MemoryBudget& memory() { return memory_; }
@@ -72,7 +73,7 @@ class SceneSource {
   [[nodiscard]] std::shared_ptr<const ShownScene> load(const Key& key);
   /// Forgets what was read before the last call of discard(). The caller holds mutex_.
   void forget_stale();
-  void note_files(const std::set<std::string>& names);
+  void note_files(const std::map<std::string, FileState>& states);
 
   MemoryBudget memory_;
   LoadOptions options_;
@@ -88,8 +89,8 @@ class SceneSource {
   std::deque<std::pair<Key, std::shared_ptr<const ShownScene>>> scenes_;
   std::deque<std::pair<std::string, Environment>> environments_;
 
-  mutable std::mutex files_mutex_;  // another one, because loading a scene takes long
-  std::set<std::string> files_;     // guarded by files_mutex_
+  mutable std::mutex files_mutex_;          // another one, because loading a scene takes long
+  std::map<std::string, FileState> files_;  // guarded by files_mutex_
 };
 
 }  // namespace microtrace::cli

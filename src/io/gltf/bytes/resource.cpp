@@ -57,6 +57,7 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
                         (relative.leads_out ? ", or allow its folder (--allow-path)" : ""));
   }
   const std::string file = std::string(what) + " file " + in_quotes(path.string());
+  note_unread_file(path);  // it may be missing
   std::error_code code;
   // Reading a pipe or device could block forever.
   if (!std::filesystem::is_regular_file(path, code)) {
