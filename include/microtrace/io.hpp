@@ -67,6 +67,8 @@ struct LoadOptions {
   /// files of any scene may also lead into these folders.
   std::vector<std::filesystem::path> allowed_folders{};
   Instancing instancing = Instancing::automatic;  ///< results don't depend on it
+  /// If true, refuses pipes and devices as scene files, whose reading might never end.
+  bool needs_regular_file = false;
   LoadTimes* times = nullptr;  ///< if given, loading times are added to its members
   /// If given, counts the memory used for loading and for the loaded data. Must outlive the
   /// SceneFile and its scenes. The memory of a scene is counted until its SceneFile makes another

@@ -123,7 +123,8 @@ void note_unread_file(const std::filesystem::path& path) {
   if (files_read != nullptr) files_read->note(path.string(), microtrace::state_of(path));
 }
 
-std::string read_regular_file(const std::filesystem::path& path, std::size_t limit) {
+std::string read_regular_file(const std::filesystem::path& path, std::size_t limit,
+                              const std::function<void(std::string_view)>& inspect) {
   const std::string name = path.string();
   // Without O_NONBLOCK, opening a pipe would block until the pipe has a writer.
   const Descriptor descriptor = open_file(path, O_NONBLOCK);
@@ -132,7 +133,7 @@ std::string read_regular_file(const std::filesystem::path& path, std::size_t lim
   if (::fstat(descriptor.number(), &status) != 0) fail(name, "can't be read", errno);
   if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
     throw Error(ErrorKind::io, name, "is not a regular file");
-  return read_descriptor(descriptor.number(), name, limit, {});
+  return read_descriptor(descriptor.number(), name, limit, inspect);
 }
 
 std::optional<struct stat> status_of_target(const std::filesystem::path& path) {

@@ -22,10 +22,11 @@ inline constexpr std::size_t kMaxFileSize = std::size_t{1} << 30;
 [[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit,
                                     const std::function<void(std::string_view)>& inspect = {});
 
-/// Returns the bytes of a file named by another file, which must be a regular file: a pipe could
-/// block forever, and a device has no end. Throws Error like read_file, and Error (io) for other
-/// kinds of files.
-[[nodiscard]] std::string read_regular_file(const std::filesystem::path& path, std::size_t limit);
+/// Does the same for a file that must be regular, as one that is named by another file: a pipe
+/// could block forever, and a device has no end. Throws Error (io) for other kinds of files.
+[[nodiscard]] std::string read_regular_file(
+    const std::filesystem::path& path, std::size_t limit,
+    const std::function<void(std::string_view)>& inspect = {});
 
 /// Like read_file, but reads the rest of an open descriptor. Error messages use `name`.
 [[nodiscard]] std::string read_descriptor(int descriptor, const std::string& name,

@@ -150,9 +150,12 @@ SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
   Content& content = *content_;
   const MemoryScope scope(content.memory);
   io::LoadClock clock(content.options.times);
-  content.bytes = standard_input
-                      ? io::read_descriptor(STDIN_FILENO, name, io::kMaxFileSize, inspect)
-                      : io::read_file(path, io::kMaxFileSize, inspect);
+  if (standard_input)
+    content.bytes = io::read_descriptor(STDIN_FILENO, name, io::kMaxFileSize, inspect);
+  else if (content.options.needs_regular_file)
+    content.bytes = io::read_regular_file(path, io::kMaxFileSize, inspect);
+  else
+    content.bytes = io::read_file(path, io::kMaxFileSize, inspect);
   clock.lap(&LoadTimes::read);
   content.reader.emplace(open(content.bytes, extension, name, content.folder, content.options));
 }

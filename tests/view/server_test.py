@@ -426,6 +426,38 @@ class Pictures(unittest.TestCase):
             scene.write_text(text)
             self.assertEqual(read_png(next_after(missing).body), read_png(first.body))
 
+    def test_scene_file_becomes_a_pipe_or_a_folder(self):
+        scene = self.folder / "scene.json"
+        shutil.copy(SCENES / "perspective1.json", scene)
+        with Viewer(PROGRAM, scene) as viewer:
+            path = viewer.open()
+            last = viewer.draw(["--size", "64x48"], path)[-1]
+            first = read_png(last.body)
+
+            def next_after(response):
+                number = response.picture["sequence"]
+                return wait_until(lambda: (r := viewer.request("GET", f"{path}?after={number}")).status == 200 and r)
+
+            for make, remove, text in ((os.mkfifo, os.unlink, "is not a regular file"), (os.mkdir, os.rmdir, "is a directory, not a file")):
+                scene.unlink()
+                make(scene)
+                while text not in (last := next_after(last)).body.decode(errors="replace"):
+                    pass  # the file may have been seen while it was missing
+                remove(scene)
+                shutil.copy(SCENES / "perspective1.json", scene)
+                while (last := next_after(last)).headers["Content-Type"] != "image/png":
+                    pass
+                self.assertEqual(read_png(last.body), first)
+            scene.unlink()
+            os.mkfifo(scene)
+            while "is not a regular file" not in (last := next_after(last)).json["error"]:
+                pass
+            viewer.process.send_signal(15)
+            self.assertEqual(viewer.process.wait(timeout=10), 0)
+        result = run("view", scene, "--no-browser", timeout=30)
+        self.assertEqual(result.returncode, 5)
+        self.assertIn(b"is not a regular file", result.stderr)
+
     def test_texture_that_changes_during_loading(self):
         scene, words = self.folder / "scene.gltf", ["--size", "16x12", "--integrator", "albedo", "--view", "front"]
         write_textured_grid(scene, 400)

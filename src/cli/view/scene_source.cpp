@@ -28,6 +28,7 @@ SceneSource::SceneSource(const Arguments& arguments)
       files_{{arguments.scene, state_of(arguments.scene)}} {
   options_.detail = SurfaceDetail::all;  // the page selects the integrator
   options_.memory = &memory_;
+  options_.needs_regular_file = true;  // a pipe that replaces the file would block the page
 }
 
 SceneSource::SceneSource(const Arguments& arguments, std::shared_ptr<const ShownScene> scene)
