@@ -536,6 +536,12 @@ class Ends(unittest.TestCase):
             result = run("view", *arguments, "--no-browser", timeout=30)
             self.assertEqual(result.returncode, code, (arguments, result.stderr))
 
+    def test_address_that_cannot_be_written(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "view", SCENES / "sphere.json", "--no-browser"], stdout=full, stderr=subprocess.PIPE, timeout=30)
+        self.assertEqual(result.returncode, 5)
+        self.assertIn(b"standard output: can't be written", result.stderr)
+
     def test_module_is_missing(self):
         result = run("view", SCENES / "sphere.json", env=dict(os.environ, MICROTRACE_MODULE_PATH="/nowhere"), timeout=30)
         self.assertEqual(result.returncode, 4)

@@ -5,6 +5,8 @@
 #include "cli/view/browser.hpp"
 #include "cli/view/view_server.hpp"
 
+#include <microtrace/error.hpp>
+
 #include <cstdio>
 #include <string>
 
@@ -18,8 +20,8 @@ void view_scene(const Arguments& arguments) {
   const DelayedSignals delay;  // from the moment at which the address is known
   if (!arguments.quiet) {
     std::fprintf(stderr, "%s is shown at\n", printable(arguments.scene).c_str());
-    std::printf("%s\n", server.address().c_str());
-    std::fflush(stdout);
+    if (std::printf("%s\n", server.address().c_str()) < 0 || std::fflush(stdout) != 0)
+      throw Error(ErrorKind::io, "standard output", "can't be written");
     std::fprintf(stderr, "Press Ctrl-C to end.\n");
   }
   if (arguments.view.opens_browser) open_browser(server.address());
