@@ -27,16 +27,16 @@ std::shared_ptr<const cli::ShownScene> shown(const Prepared& prepared) {
 
 cli::Arguments arguments_of(const Prepared& prepared, std::string name,
                             std::vector<std::string> words, unsigned port,
-                            std::string allowed_host) {
+                            const std::string& allowed_host) {
   if (port > 65535) throw nb::value_error("port must be in [0, 65535]");
   if (!prepared.is_flat && prepared.has_background) {
     for (const char* word : {"path", "--integrator"}) words.insert(words.begin(), word);
   }
   words.insert(words.begin(), "scene");  // a name may look like an option
+  if (!allowed_host.empty()) words.push_back("--allow-host=" + allowed_host);
   cli::Arguments arguments = cli::parse_words(cli::Command::view, std::move(words));
   arguments.scene = std::move(name);
   arguments.view.port = static_cast<std::uint16_t>(port);
-  arguments.view.allowed_host = std::move(allowed_host);
   return arguments;
 }
 
@@ -81,9 +81,9 @@ class Viewer {
 };
 
 void open_viewer(Viewer* self, const Prepared& prepared, std::string name,
-                 std::vector<std::string> words, unsigned port, std::string allowed_host) {
+                 std::vector<std::string> words, unsigned port, const std::string& allowed_host) {
   const cli::Arguments arguments =
-      arguments_of(prepared, std::move(name), std::move(words), port, std::move(allowed_host));
+      arguments_of(prepared, std::move(name), std::move(words), port, allowed_host);
   const nb::gil_scoped_release release;
   new (self) Viewer(prepared, arguments);
 }

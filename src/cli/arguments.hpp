@@ -135,7 +135,7 @@ struct ViewOptions {
   std::uint16_t port = 0;  ///< 0: any free port
   bool opens_browser = true;
   std::string other_scene{};   ///< a scene file to compare with; may be empty
-  std::string allowed_host{};  ///< a host name in the page's address besides the loopback's
+  std::string allowed_host{};  ///< NAME or NAME:PORT of a proxy's address
   /// The given options that change the picture, as words of a command line.
   std::vector<std::string> words{};
 };

@@ -152,6 +152,26 @@ class Access(unittest.TestCase):
             for host, expected in (("hub.example.org", 200), ("hub.example.org:443", 200), ("localhost", 200), ("example.org", 403)):
                 self.assertEqual(viewer.request("GET", "", headers={"Host": host}).status, expected, host)
 
+    def test_origin_of_a_proxy(self):
+        def answers(viewer, host, *origins):
+            headers = {} if host is None else {"Host": host}
+            return [viewer.request("POST", "scene", "", {**headers, "Origin": origin}).status for origin in origins]
+        # Host is None if the proxy replaces the header by the server's own address, as nginx does by default.
+        with Viewer(PROGRAM, SCENES / "sphere.json", "--allow-host", "Hub.example.org") as viewer:
+            self.assertEqual(answers(viewer, None, "https://hub.example.org", "http://hub.example.org", "https://hub.example.org:443"), [200] * 3)
+            self.assertEqual(answers(viewer, None, "https://hub.example.org:8443", "https://example.org", "https://hub.example.org.org", "null",
+                                     "https://xhub.example.org", "https://hub.example.org:", "ftp://hub.example.org", "http://localhost"), [403] * 8)
+            self.assertEqual(answers(viewer, "hub.example.org:8443", "https://hub.example.org:8443"), [200])
+            self.assertEqual(answers(viewer, "example.org", "https://hub.example.org", "https://example.org"), [403] * 2)
+        with Viewer(PROGRAM, SCENES / "sphere.json", "--allow-host", "hub.example.org:8443") as viewer:
+            for host in (None, "hub.example.org", "hub.example.org:8443"):
+                self.assertEqual(answers(viewer, host, "https://hub.example.org:8443"), [200])
+            self.assertEqual(answers(viewer, None, "https://hub.example.org", "https://hub.example.org:9000"), [403] * 2)
+            policy = viewer.request("GET", "").headers["Content-Security-Policy"]
+            self.assertTrue(policy.endswith(" https://hub.example.org:*"), policy)
+        with Viewer(PROGRAM, SCENES / "sphere.json", "--allow-host", "[2001:db8::1]:8443") as viewer:
+            self.assertEqual(answers(viewer, None, "https://[2001:db8::1]:8443", "https://[2001:db8::1]"), [200, 403])
+
     def test_methods_and_addresses(self):
         for method, path, expected in (("POST", "", 405), ("GET", "scene", 405), ("DELETE", "pictures", 405), ("GET", "nothing", 404),
                                        ("GET", "../", 404), ("GET", "pictures/99?after=0", 410), ("BREW", "", 405), ("HEAD", "style.css", 200)):
@@ -535,6 +555,13 @@ class Ends(unittest.TestCase):
                                 ([SCENES / "sphere.json", "--compare", "missing.json"], 5)):
             result = run("view", *arguments, "--no-browser", timeout=30)
             self.assertEqual(result.returncode, code, (arguments, result.stderr))
+
+    def test_hosts_that_are_refused(self):
+        for host in ("", "hub.example.org; script-src *", "a b", "*", "*.example.org", "https://hub.example.org", "hub/x", "hub:", "hub:port",
+                     "hub:65536", "hub:80:80", ":80", "[::1", "[]", "[::1]x", "hub\nx"):
+            result = run("view", SCENES / "sphere.json", "--no-browser", "--allow-host", host, timeout=30)
+            self.assertEqual(result.returncode, 2, host)
+            self.assertIn(b"--allow-host: expects a ", result.stderr)
 
     def test_address_that_cannot_be_written(self):
         with open("/dev/full", "w") as full:

@@ -83,6 +83,27 @@ ImageSize parse_size(const OptionValue& value) {
   return size;
 }
 
+std::string parse_host(const OptionValue& value) {
+  const std::string_view text = value.text;
+  const bool is_address = text.starts_with('[');
+  const std::size_t end = is_address ? text.find(']') : std::min(text.find(':'), text.size());
+  if (end != text.npos) {
+    const std::size_t bracket = is_address ? 1 : 0;
+    const std::string_view name = text.substr(bracket, end - bracket);
+    const std::string_view port = text.substr(end + bracket);
+    const auto belongs = [is_address](char c) {
+      const bool is_digit = c >= '0' && c <= '9';
+      const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+      return is_digit || is_letter || c == '.' || c == (is_address ? ':' : '-');
+    };
+    const std::uint32_t number =
+        port.starts_with(':') ? whole_number(port.substr(1)).value_or(0) : 0;
+    const bool has_right_port = port.empty() || (number >= 1 && number <= 65535);
+    if (!name.empty() && std::ranges::all_of(name, belongs) && has_right_port) return value.text;
+  }
+  value.refuse("a host name, such as hub.example.org or hub.example.org:8443");
+}
+
 PixelRect parse_crop(const OptionValue& value) {
   std::vector<std::uint32_t> sides;
   for (const std::string_view part : split_at_commas(value.text)) {

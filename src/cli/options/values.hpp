@@ -25,6 +25,10 @@ namespace microtrace::cli {
 
 /// Parses WIDTHxHEIGHT.
 [[nodiscard]] ImageSize parse_size(const OptionValue& value);
+/// Checks NAME or NAME:PORT. A name has letters, digits, '.' and '-', or is an IPv6 address in
+/// brackets, so that the text may become part of a header field.
+[[nodiscard]] std::string parse_host(const OptionValue& value);
+
 /// Parses x0,y0,x1,y1.
 [[nodiscard]] PixelRect parse_crop(const OptionValue& value);
 

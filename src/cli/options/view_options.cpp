@@ -1,5 +1,6 @@
 #include "cli/arguments.hpp"
 #include "cli/options/option.hpp"
+#include "cli/options/values.hpp"
 
 #include <array>
 
@@ -35,10 +36,12 @@ constexpr std::array kViewOptions{
            .set = [](Arguments& a, const OptionValue&) { a.view.opens_browser = false; }},
     Option{.names = "--allow-host",
            .metavar = "NAME",
-           .help = "accept this host name in the page's address, for a proxy in front of the page",
+           .help = "accept this host name, or NAME:PORT, in the page's address, for a proxy in "
+                   "front of the page",
            .default_value = "localhost and 127.0.0.1 only",
            .samples = Samples::keep,
-           .set = [](Arguments& a, const OptionValue& value) { a.view.allowed_host = value.text; }},
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.view.allowed_host = parse_host(value); }},
 };
 static_assert(is_complete(kViewOptions));
 

@@ -30,7 +30,7 @@ struct MicrotraceHttpResponse {
 struct MicrotraceHttpHost {
   std::uint16_t port;        ///< 0: any free port
   const char* token;         ///< the first part of each path, of letters and digits
-  const char* allowed_host;  ///< a host name to accept besides those of the loopback; "" for none
+  const char* allowed_host;  ///< NAME or NAME:PORT to accept besides the loopback; "" for none
   void* context;             ///< passed to the functions
   /// Receives a request, for which reply() must be called once, at any time and by any thread.
   void (*handle)(void* context, const MicrotraceHttpRequest* request, void* exchange);

@@ -34,7 +34,7 @@ class HttpServer {
   struct Options {
     std::uint16_t port = 0;      ///< 0: any free port
     std::string token{};         ///< the first part of each path, of letters and digits
-    std::string allowed_host{};  ///< a host name to accept besides those of the loopback
+    std::string allowed_host{};  ///< NAME or NAME:PORT to accept besides the loopback
   };
   /// Receives requests on the thread of run(). Must return soon.
   using Handler = std::function<void(HttpRequest, const HttpReply&)>;

@@ -32,24 +32,40 @@ bool are_equal(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
-bool is_own_host(std::string_view host, std::string_view allowed) {
-  std::string_view name = host;
+std::optional<HostName> split_host(std::string_view text) {
+  HostName host{.name = lower_case(text), .port = {}};
   // The colons of an IPv6 address are within brackets.
-  const std::size_t colon = host.rfind(':');
-  if (colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos) {
-    if (!is_port(host.substr(colon + 1))) return false;
-    name = host.substr(0, colon);
+  const std::size_t colon = text.rfind(':');
+  if (colon != std::string_view::npos && text.find(']', colon) == std::string_view::npos) {
+    host.name.resize(colon);
+    host.port = text.substr(colon + 1);
+    if (!is_port(host.port)) return std::nullopt;
   }
-  constexpr std::array<std::string_view, 3> kLoopback{"localhost", "127.0.0.1", "[::1]"};
-  const std::string lower = lower_case(name);
-  return std::ranges::find(kLoopback, lower) != kLoopback.end() ||
-         (!allowed.empty() && lower == lower_case(allowed));
+  if (host.name.empty()) return std::nullopt;
+  return host;
 }
 
-bool is_own_origin(std::string_view origin, std::string_view host) {
-  for (const std::string_view scheme : {"http://", "https://"}) {
-    if (origin.starts_with(scheme))
-      return lower_case(origin.substr(scheme.size())) == lower_case(host);
+bool is_own_host(std::string_view host, std::string_view allowed) {
+  const std::optional<HostName> given = split_host(host), other = split_host(allowed);
+  if (!given) return false;
+  constexpr std::array<std::string_view, 3> kLoopback{"localhost", "127.0.0.1", "[::1]"};
+  return std::ranges::find(kLoopback, given->name) != kLoopback.end() ||
+         (other && given->name == other->name);
+}
+
+bool is_own_origin(std::string_view origin, std::string_view host, std::string_view allowed) {
+  struct Scheme {
+    std::string_view start, port;
+  };
+  for (const auto& [start, default_port] : {Scheme{"http://", "80"}, Scheme{"https://", "443"}}) {
+    if (!origin.starts_with(start)) continue;
+    const std::string_view rest = origin.substr(start.size());
+    if (lower_case(rest) == lower_case(host)) return true;
+    const std::optional<HostName> given = split_host(rest), other = split_host(allowed);
+    const auto port_of = [port = default_port](const HostName& name) {
+      return name.port.empty() ? port : std::string_view(name.port);
+    };
+    return given && other && given->name == other->name && port_of(*given) == port_of(*other);
   }
   return false;
 }

@@ -40,7 +40,7 @@ Connection::Response make_response(unsigned status, const std::string& type, std
   std::string frames =
       "'self' http://localhost:* http://127.0.0.1:* https://localhost:* "
       "vscode-webview:";
-  if (!allowed_host.empty()) frames += " https://" + allowed_host + ":*";
+  if (const auto host = split_host(allowed_host)) frames += " https://" + host->name + ":*";
   response.set("Content-Security-Policy",
                "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: "
                "data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors " +
@@ -101,8 +101,13 @@ void Connection::answer() {
                   "the host name in the address must be localhost or 127.0.0.1; --allow-host adds "
                   "another one");
   }
-  if (request.count(field::origin) > 1 || (!origin.empty() && !is_own_origin(origin, host)))
-    return refuse(status::forbidden, "pages of other origins must not use this server");
+  if (request.count(field::origin) > 1 ||
+      (!origin.empty() && !is_own_origin(origin, host, server_.allowed_host()))) {
+    return refuse(
+        status::forbidden,
+        "pages of other origins must not use this server; --allow-host names the host of a "
+        "proxy, and its port if it is not the default one");
+  }
   std::string_view path = view_of(request.target());
   std::string query;
   if (const std::size_t mark = path.find('?'); mark != std::string_view::npos) {
