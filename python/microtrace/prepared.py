@@ -154,7 +154,8 @@ class PreparedScene:
             port: port of 127.0.0.1; 0 means any free port.
             name: name of the scene on the page.
             allow_host: a host name that addresses may have besides localhost and 127.0.0.1, for a
-                proxy in front of the page.
+                proxy in front of the page; with the port, as in hub.example.org:8443, if the
+                address has one.
 
         Raises:
             UsageError: an option is unknown or has a wrong value.

@@ -237,6 +237,11 @@ class PageTest(unittest.TestCase):
         self.wait_done(page)
         self.assert_shows(page, scene)
 
+    def test_cameras_are_selected_by_name(self):
+        page = self.open(self.viewer(SCENES / "perspective1.json", "--size", "60x40", "--camera", "camera1"))
+        self.assertEqual(page.input_value("#camera"), "--camera 0")
+        self.assertEqual(self.words(page), ["--size", "60x40", "--camera", "camera1"])
+
     def test_animations_are_selected_by_name(self):
         scene = self.folder / "two.glb"
         write_two_animations(SCENES / "gltf/moving.glb", scene)

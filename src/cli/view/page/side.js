@@ -15,7 +15,7 @@ export class Side {
   hasScene = false; // whether the scene file was ever loaded
   #revision; // of the scene file
 
-  /** `scene` is the number of the scene file. The page has the functions described(side) and shown(side). */
+  /** `number` is that of the scene file. The page has the functions described(side) and shown(side). */
   constructor(page, canvas, number, options) {
     Object.assign(this, { page, canvas, number, options });
     this.live = new LivePicture(number, (bitmap, status) => this.#show(bitmap, status), (text, status) => this.#fail(text, status));
