@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace microtrace {
@@ -100,6 +101,49 @@ TEST(Backfaces, HullsDoNotBlockLight) {
                 5 * (bare.deviation + transmittance.deviation) + 0.002 * bare.mean)
         << name;
     EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0) << name;
+  }
+}
+
+// Queries of rays return only the first hit with a sphere or a quadric, so its front must block
+// light that its back would let in.
+TEST(Backfaces, ClosedShapesCastShadows) {
+  const Vec3 center(-1.7F, 3.4F, 0.1F);  // toward the sun
+  const Quadric ball{.a = 1,
+                     .b = 1,
+                     .c = 1,
+                     .g = -2 * center.x,
+                     .h = -2 * center.y,
+                     .i = -2 * center.z,
+                     .j = glm::dot(center, center) - 0.64F};
+  for (const Shape& shape : {Shape{Sphere{center, 0.8F}}, Shape{ball}}) {
+    Model model;
+    model.add_light(DirectionalLight{.direction = {0.6, -0.8, 0}, .intensity = 3});
+    EXPECT_GT(model.seen(Backfaces::pass).mean, 0.05);
+    model.add(shape, kMatt);
+    EXPECT_EQ(model.seen(Backfaces::pass).mean, 0);
+    EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
+  }
+}
+
+TEST(Backfaces, BacksOfUnlitHullsAreNotEmissive) {
+  Model model;
+  model.scene.materials[kHull].base_color = Vec4(1);
+  model.camera.pose.position.y = 1.5;
+  model.add(box({0, 3, 0}, Vec3(0.5F), true), kHull);
+  EXPECT_EQ(model.seen(Backfaces::pass).mean, 0);
+  model.scene.materials[kHull].double_sided = true;
+  EXPECT_GT(model.seen(Backfaces::pass).mean, 0.01);
+}
+
+// A factor of 0 makes an extension for transmission ineffective.
+TEST(Backfaces, SurfacesWithoutTransmissionCastShadows) {
+  for (const bool has_extension : {false, true}) {
+    Model model;
+    if (has_extension) model.scene.materials[kMatt].transmission = Transmission{.factor = 0};
+    model.add_light(DirectionalLight{.direction = {0, -1, 0}, .intensity = 3});
+    model.camera.pose.position.y = 1.2;
+    model.add(box({0, 2, 0}, Vec3(0.5F), false), kMatt);
+    EXPECT_EQ(model.seen(Backfaces::pass).mean, 0);
   }
 }
 

@@ -62,6 +62,29 @@ TEST(Bsdf, SamplerAndQuadratureAgree) {
   }
 }
 
+TEST(Bsdf, NoSampleOfDarkSurfacesHasALargeWeight) {
+  for (const auto& [color, metallic] : {std::pair{Vec3(0, 0, 0.13F), 0.0F},
+                                        {Vec3(0.009F), 0.0F},
+                                        {Vec3(1e-4F), 0.0F},
+                                        {Vec3(0.9F), 0.99F},
+                                        {Vec3(0.9F), 0.9999F},
+                                        {Vec3(0.9F), 1.0F}}) {
+    for (const float roughness : {0.0F, 0.1F, 0.4F}) {
+      for (const double theta : {0.1, 0.7, 1.2}) {
+        const Scattering bsdf({.base_color = color, .metallic = metallic, .roughness = roughness},
+                              direction(theta));
+        float most = 0;
+        for (std::uint32_t k = 0; k < 1U << 14U; ++k) {
+          const sampling::Sobol sobol(7, k);
+          if (const auto s = bsdf.sample(sobol.pair(0), sobol.one(1)))
+            most = std::max({most, s->weight.x, s->weight.y, s->weight.z});
+        }
+        EXPECT_LT(most, 4) << color.z << ' ' << metallic << ' ' << roughness << ' ' << theta;
+      }
+    }
+  }
+}
+
 TEST(Bsdf, WhiteDielectricConservesEnergy) {
   for (const float roughness : {0.1F, 0.4F, 0.7F, 1.0F}) {
     for (const double theta : {0.0, 0.6, 1.2, 1.5}) {

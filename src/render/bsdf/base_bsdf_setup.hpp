@@ -53,8 +53,9 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
     add_transmission(p, f0, white_mean.f1, several);
   }
 
-  // Samples lobes in proportion to their approximate albedos, with a minimum probability for lobes
-  // that are not negligible.
+  // Samples lobes in proportion to their approximate albedos, with a minimum probability, since
+  // directions that only the other lobe's tail finds would have enormous weights. The minimum
+  // falls with the albedo of dark lobes.
   F facets = luminance(f0 * (there.f1 - there.schlick)) + specular_.f90 * there.schlick;
   F spread = luminance(diffuse_) * mean_diffuse + luminance(multiple_) * mean.f1;
   if (features_.transmits) {
@@ -72,8 +73,10 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   } else {
     spread /= kInversePi;
   }
-  const F share = clamped(F(facets / (facets + spread)), all<N>(0.1F), all<N>(0.9F));
-  facet_probability_ = spread > (kIsPlain ? 0.01F : 0.002F) ? share : all<N>(1);
+  const F rarest = spread > (kIsPlain ? 0.01F : 0.002F) ? all<N>(0.1F)
+                                                        : smaller_of(F(10 * spread), all<N>(0.02F));
+  const F share = clamped(F(facets / (facets + spread)), all<N>(0.1F), F(1 - rarest));
+  facet_probability_ = spread > 0 ? share : all<N>(1);
 }
 
 template <int N, class Parts>

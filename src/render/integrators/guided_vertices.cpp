@@ -50,7 +50,10 @@ bool GuidedVertices::find_tables(const PathGuide& guide, bool refract, const Poi
              std::span(cells).first(static_cast<std::size_t>(points.count)));
   for (int lane = 0; lane < kShadingLanes; ++lane) {
     const bool smooth = is_smooth(lanes.surface, lane, refract);
-    const PathGuide::Cell* cell = smooth ? nullptr : cells[static_cast<std::size_t>(lane)];
+    // The guide knows no directions below the surface. Paths that cross rough glass several times
+    // would get weights that grow each time.
+    const bool is_guided = !smooth && !refract;
+    const PathGuide::Cell* cell = is_guided ? cells[static_cast<std::size_t>(lane)] : nullptr;
     lanes.is_smooth[lane] = smooth ? 1 : 0;
     lanes.guide_part[lane] = cell != nullptr ? kPart : 0;
     lanes.brightness[lane] = cell != nullptr ? cell->brightness : -1;

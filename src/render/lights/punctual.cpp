@@ -44,10 +44,11 @@ std::optional<LightBounds> bounds(const PointLight& light) {
 }
 std::optional<LightBounds> bounds(const SpotLight& light) {
   // Ignores the falloff toward the edge of the light's cone. The light may be selected too often
-  // there.
+  // there. No light leaves the cone.
   return bounds_at(light.position, light.color, light.intensity,
                    {.axis = Vec3(light.direction),
-                    .cos_o = static_cast<float>(cos_radians(light.outer_angle)) - 1e-6F});
+                    .cos_o = static_cast<float>(cos_radians(light.outer_angle)) - 1e-6F,
+                    .cos_e = 1});
 }
 
 }  // namespace

@@ -31,10 +31,20 @@ bsdf::Schlick<1> reflectance_between(const Medium& inside, const Medium& outside
   return {.f0 = Vec3(f0), .f90 = std::min(50 * f0, 1.0F)};
 }
 
+bool transmits(const Material& m) {
+  return m.transmission && m.transmission->factor > 0;
+}
+
 /// True if light passes the back regardless of options. A path that enters and leaves one-sided
 /// thin glass crosses one wall instead of two, just as camera rays do.
 bool is_thin_glass(const Material& m) {
-  return m.transmission && !has_back(m);
+  return transmits(m) && !has_back(m);
+}
+
+/// True if every ray that passes the back of the shape arrives at its front, where it is blocked,
+/// or the reverse. Queries return only the first of the two hits.
+bool is_closed(const Shape& shape) {
+  return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Quadric>(shape);
 }
 
 bool has_map(const TextureSlot& slot) {
@@ -62,7 +72,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
     look.has_constant_emission = look[MaterialTexture::emissive].map == nullptr &&
                                  material.alpha_mode == AlphaMode::opaque && !material.unlit;
-    look.has_open_back = !has_back(material) && !look.shines() && !material.transmission &&
+    look.has_open_back = !has_back(material) && !look.shines() && !transmits(material) &&
                          !material.diffuse_transmission;
     look.is_textured = std::ranges::any_of(look.slots, has_map);
     look.has_back = has_back(material);
@@ -81,11 +91,19 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
   PrimitiveId first = 0;
+  std::vector<std::optional<std::uint32_t>> closed(looks_.size());  // looks of closed shapes
   for (const Object& object : scene.objects) {
     const auto none = static_cast<std::uint32_t>(scene.materials.size());
-    entries_.push_back({.mesh = std::get_if<Mesh>(&object.shape),
-                        .first_id = first,
-                        .look = object.material.value_or(none)});
+    std::uint32_t look = object.material.value_or(none);
+    if (looks_[look].has_open_back && is_closed(object.shape)) {
+      if (!closed[look]) {
+        closed[look] = static_cast<std::uint32_t>(looks_.size());
+        looks_.push_back(TexturedMaterial(looks_[look]));
+        looks_.back().has_open_back = false;
+      }
+      look = *closed[look];
+    }
+    entries_.push_back({.mesh = std::get_if<Mesh>(&object.shape), .first_id = first, .look = look});
     first += static_cast<PrimitiveId>(primitive_count(object.shape));
     all_cover_ &= looks_[entries_.back().look].is_opaque;
     has_open_backs_ |= looks_[entries_.back().look].has_open_back;
@@ -161,9 +179,10 @@ float Shading::coverage(const Material& material, float alpha) {
 
 Vec3 Shading::emission(const ShadingPoint& point) const {
   const TexturedMaterial& look = *point.look;
+  if (is_missing_back(point)) return Vec3(0);
   const Vec3 unlit = look.material->unlit ? Vec3(base_color(point)) : Vec3(0);
   const Vec3 color = look.material->emissive;
-  if (color == Vec3(0) || (!look.material->unlit && is_missing_back(point))) return unlit;
+  if (color == Vec3(0)) return unlit;
   return unlit +
          glm::min(color, Vec3(kBrightest)) * Vec3(look[MaterialTexture::emissive].at(point));
 }

@@ -234,7 +234,9 @@ class Shading {
 
   const Primitives& primitives_;
   std::unique_ptr<TextureMaps> maps_;
-  std::vector<TexturedMaterial> looks_;  // by material; the last is for objects without a material
+  // By material, then for objects without a material, then for closed shapes whose material is
+  // one-sided.
+  std::vector<TexturedMaterial> looks_;
   std::vector<Entry> entries_;           // by object
   std::vector<std::uint32_t> open_fronts_;
   bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false;
