@@ -237,7 +237,7 @@ class Shading {
   // By material, then for objects without a material, then for closed shapes whose material is
   // one-sided.
   std::vector<TexturedMaterial> looks_;
-  std::vector<Entry> entries_;           // by object
+  std::vector<Entry> entries_;  // by object
   std::vector<std::uint32_t> open_fronts_;
   bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false;
 };
