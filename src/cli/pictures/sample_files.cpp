@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <sys/stat.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -54,7 +53,7 @@ SampleFiles::SampleFiles(const Arguments& arguments, const Sequence& sequence, s
     : arguments_(arguments),
       checkpoint_(sequence.checkpoint(index)),
       picture_(sequence.picture(index)),
-      known_(version_of(checkpoint_)),
+      known_(state_of(checkpoint_)),
       samples_{.identity = identity_of(arguments, files, sequence.frame(index)),
                .has_alpha = arguments.environment.is_transparent(),
                .samples = arguments.sampling.samples},
@@ -90,21 +89,14 @@ void SampleFiles::keep(const std::vector<Channel>& channels) {
   samples_.channels = channels;
 }
 
-SampleFiles::Version SampleFiles::version_of(const std::filesystem::path& file) {
-  struct stat info {};
-  if (::stat(file.c_str(), &info) != 0) return {};
-  return {static_cast<std::int64_t>(info.st_ino), info.st_size, info.st_mtim.tv_sec,
-          info.st_mtim.tv_nsec};
-}
-
 void SampleFiles::save() {
   if (checkpoint_.empty() || !has_samples()) return;
-  if (const Version now = version_of(checkpoint_); now != Version{} && now != known_)
+  if (const FileState now = state_of(checkpoint_); now != FileState{} && now != known_)
     throw Error(
         ErrorKind::io, checkpoint_.string(),
         "was written by another program meanwhile; give each one a --checkpoint of its own");
   save_checkpoint(samples_, checkpoint_);
-  known_ = version_of(checkpoint_);
+  known_ = state_of(checkpoint_);
 }
 
 void SampleFiles::save_if_due() {

@@ -6,9 +6,9 @@
 #include "cli/pictures/sequence.hpp"
 
 #include <microtrace/checkpoint.hpp>
+#include <microtrace/read_files.hpp>
 #include <microtrace/render.hpp>
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -53,14 +53,11 @@ class SampleFiles {
   [[nodiscard]] const std::filesystem::path& checkpoint() const { return checkpoint_; }
 
  private:
-  /// Distinguishes the versions of a file: its number, size and time. Zero if it doesn't exist.
-  using Version = std::array<std::int64_t, 4>;
-  [[nodiscard]] static Version version_of(const std::filesystem::path& file);
   void save_if_due();
 
   const Arguments& arguments_;
   std::filesystem::path checkpoint_, picture_;
-  Version known_;  ///< of the checkpoint, as this program read or wrote it
+  FileState known_;  ///< of the checkpoint, as this program read or wrote it
   Checkpoint samples_;
   MemoryAccount memory_;  ///< memory of samples that were read
   std::chrono::steady_clock::time_point saved_;
