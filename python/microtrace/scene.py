@@ -172,7 +172,7 @@ class Scene(Brief):
                 mesh = item.shape
                 result += [mesh.vertices, mesh.faces, mesh.normals, mesh.tangents, *mesh.uv]
                 result += [mesh.colors, mesh.segments]
-        return [array for array in result if array is not None]
+        return [array for array in result if isinstance(array, np.ndarray)]
 
     def _add(self, shape: Any, material: Material | None, name: str) -> Object:
         result = Object(shape, material, name)

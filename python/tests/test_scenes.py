@@ -222,6 +222,13 @@ def test_pickle():
     duplicate = scene.copy()
     duplicate.objects[0].name = "other"
     assert scene.objects[0].name != "other"
+    assert duplicate.objects[0].shape.vertices is scene.objects[0].shape.vertices
+
+
+def test_copies_share_no_lists():
+    scene = mt.Scene([mt.Object(mt.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))])
+    scene.copy().objects[0].shape.vertices.append([5, 5, 5])
+    assert len(scene.objects[0].shape.vertices) == 3
 
 
 def test_texts_are_short():

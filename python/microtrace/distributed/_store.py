@@ -30,7 +30,7 @@ class Store:
 
     @contextmanager
     def _failures(self) -> Iterator[None]:
-        """Makes an OSError of each error, for clients of storage services have their own types."""
+        """Makes OSErrors of the errors of storage clients, which have their own types."""
         try:
             yield
         except (OSError, ImportError, ValueError):

@@ -32,7 +32,8 @@ int hex_digit(char c) {
   return l >= 'a' && l <= 'f' ? l - 'a' + 10 : -1;
 }
 
-/// Returns true if the URI begins with a scheme: ALPHA *( ALPHA / DIGIT / "+" / "-" / "." ) ":".
+/// Returns true if a colon precedes the first slash, as it does after a scheme. Relative paths must
+/// escape such colons (RFC 3986, section 4.2).
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   return colon != std::string_view::npos && colon < uri.find('/');
