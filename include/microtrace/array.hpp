@@ -53,9 +53,7 @@ class Array {
                                     std::shared_ptr<const void> owner = {}) {
     Array result;
     if (values.empty()) return result;
-    result.values_ = Handle(new Values);
-    result.values_->borrowed = values;
-    result.values_->owner = std::move(owner);
+    result.values_ = Handle(new Values{.own = {}, .borrowed = values, .owner = std::move(owner)});
     return result;
   }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -98,8 +99,9 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     if (looks_[look].has_open_back && is_closed(object.shape)) {
       if (!closed[look]) {
         closed[look] = static_cast<std::uint32_t>(looks_.size());
-        looks_.push_back(TexturedMaterial(looks_[look]));
-        looks_.back().has_open_back = false;
+        TexturedMaterial copy = looks_[look];
+        copy.has_open_back = false;
+        looks_.push_back(std::move(copy));
       }
       look = *closed[look];
     }
