@@ -53,7 +53,7 @@ class Array {
                                     std::shared_ptr<const void> owner = {}) {
     Array result;
     if (values.empty()) return result;
-    result.values_ = Handle(new Values{.own = {}, .borrowed = values, .owner = std::move(owner)});
+    result.values_ = Handle(new Values(values, std::move(owner)));
     return result;
   }
 
@@ -156,6 +156,10 @@ class Array {
     std::span<const T> borrowed;  ///< empty if `own` holds the values
     std::shared_ptr<const void> owner;
     std::atomic<std::uint32_t> users{1};  ///< number of arrays
+
+    Values() = default;
+    Values(std::span<const T> values, std::shared_ptr<const void> its_owner)
+        : borrowed(values), owner(std::move(its_owner)) {}
 
     [[nodiscard]] bool is_borrowed() const noexcept { return !borrowed.empty(); }
     [[nodiscard]] std::span<const T> all() const noexcept {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -101,7 +100,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
         closed[look] = static_cast<std::uint32_t>(looks_.size());
         TexturedMaterial copy = looks_[look];
         copy.has_open_back = false;
-        looks_.push_back(std::move(copy));
+        looks_.push_back(copy);
       }
       look = *closed[look];
     }
