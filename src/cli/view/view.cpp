@@ -1,11 +1,10 @@
 #include "cli/view/view.hpp"
 
 #include "base/printable.hpp"
+#include "cli/report/standard_output.hpp"
 #include "cli/signals.hpp"
 #include "cli/view/browser.hpp"
 #include "cli/view/view_server.hpp"
-
-#include <microtrace/error.hpp>
 
 #include <cstdio>
 #include <string>
@@ -20,8 +19,7 @@ void view_scene(const Arguments& arguments) {
   const DelayedSignals delay;  // from the moment at which the address is known
   if (!arguments.quiet) {
     std::fprintf(stderr, "%s is shown at\n", printable(arguments.scene).c_str());
-    if (std::printf("%s\n", server.address().c_str()) < 0 || std::fflush(stdout) != 0)
-      throw Error(ErrorKind::io, "standard output", "can't be written");
+    write_standard_output(server.address() + "\n");
     std::fprintf(stderr, "Press Ctrl-C to end.\n");
   }
   if (arguments.view.opens_browser) open_browser(server.address());

@@ -97,15 +97,10 @@ std::shared_ptr<const PreparedScene::Content> PreparedScene::Content::widened(
   const auto scene = std::make_shared<Scene>(*scene_);
   widen_segments(*scene, camera, size);
   BvhOptions options = options_;
-  {
-    const std::scoped_lock lock(widened_mutex_);
-    options.previous = widened_tree_;
-  }
+  options.previous = tables_->tree();  // of another camera, for which other vertices were added
   auto result =
       std::make_shared<const Content>(scene, std::move(options), tables_, std::move(account));
-  auto tree = result->bvh().tree();
-  const std::scoped_lock lock(widened_mutex_);
-  widened_tree_ = std::move(tree);
+  tables_->set_tree(result->bvh().tree());
   return result;
 }
 

@@ -78,9 +78,6 @@ class PreparedScene::Content {
   mutable std::mutex moved_mutex_;
   mutable DVec3 moved_by_{0};
   mutable std::shared_ptr<const Content> moved_;
-  // Of the most recent camera, since other cameras move only the points and line segments.
-  mutable std::mutex widened_mutex_;
-  mutable std::shared_ptr<const BvhTree> widened_tree_;
 };
 
 /// A pointer to a scene that the caller keeps alive and unchanged.

@@ -17,23 +17,30 @@ std::uint64_t memory_of(const Mesh& mesh) {
          (mesh.positions.size() + 4 * segments) * of_vertex;
 }
 
-std::uint64_t memory_of(const Scene& scene, PlacedMeshes placed) {
+namespace {
+
+/// Returns the size of a scene's objects and of the arrays of the meshes for which counts(mesh) is
+/// true.
+template <class Counts>
+std::uint64_t memory_of_objects(const Scene& scene, const Counts& counts) {
   std::uint64_t result = scene.objects.size() * sizeof(Object);
   for (const Object& object : scene.objects) {
     const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh == nullptr) continue;
-    if (!mesh->placement || placed == PlacedMeshes::copied) result += memory_of(*mesh);
+    if (mesh != nullptr && counts(*mesh)) result += memory_of(*mesh);
   }
   return result;
 }
 
+}  // namespace
+
+std::uint64_t memory_of(const Scene& scene, PlacedMeshes placed) {
+  return memory_of_objects(scene, [placed](const Mesh& mesh) {
+    return !mesh.placement || placed == PlacedMeshes::copied;
+  });
+}
+
 std::uint64_t memory_to_widen(const Scene& scene) {
-  std::uint64_t result = scene.objects.size() * sizeof(Object);
-  for (const Object& object : scene.objects) {
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh != nullptr && !mesh->segments.empty()) result += memory_of(*mesh);
-  }
-  return result;
+  return memory_of_objects(scene, [](const Mesh& mesh) { return !mesh.segments.empty(); });
 }
 
 }  // namespace microtrace

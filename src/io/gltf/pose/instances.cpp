@@ -45,14 +45,13 @@ class Maker {
       asset_.fail(attributes_, "brings the asset to more than 2^22 instances, the limit",
                   ErrorKind::limit);
     }
-    InstanceTransforms::Attributes result{
-        .count = *count,
-        .translations = read<Vec3>("TRANSLATION", ElementType::vec3, false),
-        .rotations = read<glm::vec4>("ROTATION", ElementType::vec4, true),
-        .scales = read<Vec3>("SCALE", ElementType::vec3, false)};
+    InstanceTransforms result{.count = *count,
+                              .translations = read<Vec3>("TRANSLATION", ElementType::vec3, false),
+                              .rotations = read<glm::vec4>("ROTATION", ElementType::vec4, true),
+                              .scales = read<Vec3>("SCALE", ElementType::vec3, false)};
     if (lacks_data_) return std::nullopt;
     for (const glm::vec4& rotation : result.rotations) check(glm::dvec4(rotation));
-    return InstanceTransforms(std::move(result));
+    return result;
   }
 
  private:
@@ -97,7 +96,6 @@ class Maker {
 }  // namespace
 
 DMat4 InstanceTransforms::operator[](std::size_t instance) const {
-  const auto& [count, translations, rotations, scales] = attributes_;
   const glm::dvec4 turn = rotations.empty() ? no_turn : glm::dvec4(rotations[instance]);
   const double length = length_of(turn);
   return composed(translations.empty() ? DVec3(0) : DVec3(translations[instance]),

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -18,25 +17,16 @@ namespace microtrace::io::gltf {
 /// The maximum number of instances of all nodes together.
 inline constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
 
-/// The transforms from the instances of a node's mesh to the node.
-class InstanceTransforms {
- public:
-  /// The attributes of the instances. Empty arrays stand for attributes that the node lacks.
-  struct Attributes {
-    std::size_t count = 0;
-    std::vector<Vec3> translations;
-    std::vector<glm::vec4> rotations;  ///< quaternions (x, y, z, w) of any length
-    std::vector<Vec3> scales;
-  };
+/// The transforms from the instances of a node's mesh to the node. Empty arrays stand for
+/// attributes that the node lacks.
+struct InstanceTransforms {
+  std::size_t count = 0;
+  std::vector<Vec3> translations{};
+  std::vector<glm::vec4> rotations{};  ///< quaternions (x, y, z, w) of any length
+  std::vector<Vec3> scales{};
 
-  InstanceTransforms() = default;
-  explicit InstanceTransforms(Attributes attributes) : attributes_(std::move(attributes)) {}
-
-  [[nodiscard]] std::size_t size() const { return attributes_.count; }
+  [[nodiscard]] std::size_t size() const { return count; }
   [[nodiscard]] DMat4 operator[](std::size_t instance) const;
-
- private:
-  Attributes attributes_;
 };
 
 class Instances {

@@ -35,8 +35,11 @@ class UniqueNames {
   explicit UniqueNames(std::size_t count) { uses_.reserve(count); }
 
   std::string make(const std::string& name) {
-    const auto [first, is_new] = uses_.try_emplace(std::pmr::string(name, &memory_), 1);
-    if (is_new) return name;
+    const auto first = uses_.find(std::string_view(name));
+    if (first == uses_.end()) {
+      uses_.emplace(name, 1);
+      return name;
+    }
     std::size_t& use = first->second;  // the reference stays valid when names are inserted
     std::string result;
     do {
@@ -47,6 +50,7 @@ class UniqueNames {
 
  private:
   struct Hash {
+    using is_transparent = void;
     // Not noexcept, so that libstdc++ stores the hashes. This avoids most string comparisons.
     std::size_t operator()(std::string_view name) const {
       return std::hash<std::string_view>{}(name);
@@ -54,7 +58,7 @@ class UniqueNames {
   };
 
   std::pmr::monotonic_buffer_resource memory_;  // frees all names at once
-  std::pmr::unordered_map<std::pmr::string, std::size_t, Hash> uses_{&memory_};
+  std::pmr::unordered_map<std::pmr::string, std::size_t, Hash, std::equal_to<>> uses_{&memory_};
 };
 
 }  // namespace
