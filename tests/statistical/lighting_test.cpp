@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -158,6 +159,48 @@ TEST(Lighting, PointsOnAnEmitterAreUniform) {
     const std::vector<double> expected(counts[i].size(), all[i] / double(counts[i].size()));
     EXPECT_LT(chi_square_excess(counts[i], expected), 5) << i;
   }
+}
+
+/// Returns a square of this many cells, whose front points down.
+Mesh square_lamp(const Vec3& corner, float side, std::uint32_t cells) {
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::uint32_t row = 0; row <= cells; ++row) {
+    for (std::uint32_t column = 0; column <= cells; ++column) {
+      const Vec2 at(column, row);
+      positions.push_back(corner + Vec3(at.x, 0, at.y) * (side / static_cast<float>(cells)));
+      if (row == cells || column == cells) continue;
+      const std::uint32_t first = row * (cells + 1) + column, next = first + cells + 1;
+      triangles.push_back({{first, first + 1, next + 1}});
+      triangles.push_back({{first, next + 1, next}});
+    }
+  }
+  return {.positions = std::move(positions), .triangles = std::move(triangles)};
+}
+
+// Rounding of directions makes many shadow rays hit a neighbor of the triangle at which they were
+// aimed. The quadric keeps the scene from being moved to the origin.
+TEST(Lighting, FineEmittersFarFromTheOriginAreAsBrightAsCoarseOnes) {
+  const Vec3 center(150, 100, 200);
+  const auto brightness = [&](std::uint32_t cells) {
+    Scene scene;
+    scene.materials = {{.metallic = 0},
+                       {.base_color = Vec4(0), .metallic = 0, .emissive = Vec3(1000)}};
+    scene.objects = {
+        {.name = "floor",
+         .shape = parallelogram(center - Vec3(1, 0, 1), {0, 0, 2}, {2, 0, 0}),
+         .material = 0},
+        {.name = "lamp", .shape = square_lamp(center + Vec3(0, 1, 0), 0.01F, cells), .material = 1},
+        {.name = "quadric", .shape = Quadric{.a = 1, .b = 1, .c = 1, .j = -1}}};
+    scene.environment = Environment{.content = Vec3(0)};
+    const PerspectiveCamera camera{
+        .pose = {.position = DVec3(center) + DVec3(0, 0.5, 0.5), .direction = {0, -1, -1}},
+        .vertical_fov = 0.5};
+    return mean_of(shoot(scene, camera, {.samples = 256, .max_depth = 2})).y;
+  };
+  const double coarse = brightness(1);
+  EXPECT_GT(coarse, 0);
+  EXPECT_NEAR(brightness(128) / coarse, 1, 0.005);
 }
 
 }  // namespace

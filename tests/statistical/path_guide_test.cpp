@@ -147,6 +147,19 @@ TEST(PathGuide, OrderOfRecordsDoesNotMatter) {
   EXPECT_EQ(cell_at(one, Vec3(0), {0, -1, 0}), nullptr);
 }
 
+// The ground is often an infinite plane, of which some paths see far parts.
+TEST(PathGuide, FewFarRecordsLeaveTheCellsOfOthersSmall) {
+  GuideRecords all = records();
+  for (const float far : {-1e6F, 1e6F}) {
+    for (int i = 0; i < 20; ++i)
+      all[face_index({.axis = 1})].push_back({.p = {far, 0, far}, .d = {0, 1, 0}, .value = 1});
+  }
+  const PathGuide guide(all, 1);
+  const PathGuide::Cell* cell = cell_at(guide, {1, 0, 0.5F}, {0, 1, 0});
+  ASSERT_NE(cell, nullptr);
+  EXPECT_NE(cell, cell_at(guide, {9, 0, 0.5F}, {0, 1, 0}));
+}
+
 TEST(PathGuide, FindsManyPointsLikeOne) {
   const PathGuide guide(records(), 1);
   std::mt19937 random(11);

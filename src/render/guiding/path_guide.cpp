@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostRecords = 1024;
 /// A part of space with fewer records, or fewer that found light, says less than those around it.
 constexpr std::size_t kLeastRecords = 32, kLeastLit = 16;
-constexpr int kGreatestDepth = 24;
+constexpr int kGreatestDepth = 64;
 
 }  // namespace
 

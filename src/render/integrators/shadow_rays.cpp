@@ -55,7 +55,8 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
   // Adds the light that passes the surfaces of ray i, whose query has found a blocker.
   const auto add_rest = [&](const ShadowColumns& arrays, const RayColumns& rays, std::size_t i,
                             const std::optional<PrimitiveId>& target) {
-    if (!may_pass_opaque && shading.is_opaque(hits_[i])) return;
+    const bool may_be_beside = target && shading.is_same_emitter(hits_[i], *target);
+    if (!may_pass_opaque && !may_be_beside && shading.is_opaque(hits_[i])) return;
     const Ray ray = rays[i];
     add(arrays, i,
         transmittance(bvh, shading, passes_backs, ray, bvh.intersect(ray), target, beyond));

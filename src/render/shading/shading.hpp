@@ -192,6 +192,10 @@ class Shading {
   [[nodiscard]] bool shines(PrimitiveId id) const {
     return looks_[entries_[primitives_.object_index(id)].look].shines();
   }
+  /// True if both primitives are of one object, whose material may be emissive.
+  [[nodiscard]] bool is_same_emitter(PrimitiveId a, PrimitiveId b) const {
+    return primitives_.object_index(a) == primitives_.object_index(b) && shines(a);
+  }
   [[nodiscard]] bool is_open_front(PrimitiveId id) const {
     return (open_fronts_[id / 32] >> id % 32 & 1U) != 0;
   }

@@ -1,12 +1,30 @@
 #include "render/shading/transmittance.hpp"
 
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 namespace microtrace {
+namespace {
+
+/// True if the ray, aimed at a point of `target` at t = 1, hits another triangle of this emitter
+/// there, because the direction is rounded.
+bool hits_beside(const Shading& shading, const Ray& ray, const Hit& hit, PrimitiveId target) {
+  // The rounding of the two points and of their difference, with room for that of t.
+  constexpr float kRounding = 0x1p-21F;
+  if (!shading.is_same_emitter(hit.id, target)) return false;
+  const Vec3 magnitude = glm::abs(ray.o) + glm::abs(ray.d);
+  return std::abs(hit.t - 1) * glm::length(ray.d) <= kRounding * glm::length(magnitude);
+}
+
+}  // namespace
 
 float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
                     std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
                     std::uint64_t& beyond) {
   float transmittance = 1;
-  while (hit && hit->id != target) {
+  while (hit && hit->id != target && !(target && hits_beside(shading, ray, *hit, *target))) {
     const ShadingPoint point = shading.point(ray, *hit);
     // If the ray hits a front, the light comes from behind it.
     if (!(passes_backs && Shading::lets_light_in(point)))
