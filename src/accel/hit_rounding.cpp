@@ -63,18 +63,19 @@ struct RoundedT {
   const float* t;
 };
 
-// Writes the hits. resolve(i, id) must return the hit of ray i with primitive `id`.
+// Writes the hits. resolve(i, id) must return the hit of element i's ray with primitive `id`.
 template <class Resolve>
-void write_hits(const std::uint32_t* ids, const RoundedT& rounded, const Resolve& resolve,
-                std::span<std::optional<Hit>> hits) {
+void write_hits(const std::uint32_t* ids, const std::uint8_t* order, const RoundedT& rounded,
+                const Resolve& resolve, std::span<std::optional<Hit>> hits) {
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const std::uint32_t id = ids[i];
+    std::optional<Hit>& hit = hits[order[i]];
     if ((rounded.certain >> i & 1U) != 0)
-      hits[i] = Hit{.id = id, .t = rounded.t[i]};
+      hit = Hit{.id = id, .t = rounded.t[i]};
     else if (id != kNoPrimitive)
-      hits[i] = resolve(i, id);
+      hit = resolve(i, id);
     else
-      hits[i].reset();
+      hit.reset();
   }
 }
 
@@ -101,9 +102,10 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
   });
   const std::uint64_t certain = triangles != 0 ? kernels.round_t(batch) & triangles : 0;
   const auto resolve = [&](std::size_t i, PrimitiveId id) {
-    return HitResolver(primitives, found.rays[i]).hit(id);
+    return HitResolver(primitives, found.rays[found.order[i]]).hit(id);
   };
-  write_hits(found.ids, {.certain = certain, .t = batch.t}, resolve, hits.first(count));
+  write_hits(found.ids, found.order, {.certain = certain, .t = batch.t}, resolve,
+             hits.first(count));
 }
 
 void round_hits_of_instances(const Primitives& primitives, const Kernels& kernels,
@@ -115,7 +117,8 @@ void round_hits_of_instances(const Primitives& primitives, const Kernels& kernel
   const FoundHits found{.rays = rays,
                         .ids = packet.best_id,
                         .o = {o[0], o[1], o[2]},
-                        .d = {packet.d[0], packet.d[1], packet.d[2]}};
+                        .d = {packet.d[0], packet.d[1], packet.d[2]},
+                        .order = packet.order};
   round_hits(primitives, kernels, found, hits);
 }
 
@@ -125,7 +128,7 @@ void round_hits(const PacketResolver& resolver, const Kernels& kernels, const Tr
   const std::uint64_t certain =
       tree != nullptr ? kernels.round_t_of_packet(*tree, packet, t) : std::uint64_t{0};
   const auto resolve = [&](std::size_t i, PrimitiveId id) { return resolver.hit(i, id); };
-  write_hits(packet.best_id, {.certain = certain, .t = t}, resolve, hits);
+  write_hits(packet.best_id, packet.order, {.certain = certain, .t = t}, resolve, hits);
 }
 
 }  // namespace microtrace

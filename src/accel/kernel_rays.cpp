@@ -1,5 +1,6 @@
 #include "accel/kernel_rays.hpp"
 
+#include "accel/packet_order.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 #include "exact/intersect.hpp"
 
@@ -77,6 +78,7 @@ bool fill_packet(std::span<const Ray> rays, const Kernels& kernels, KernelPacket
   // Kernels read rays as eight floats, because they can't include the header of Ray.
   static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, t_min) == 3 * sizeof(float) &&
                 offsetof(Ray, d) == 4 * sizeof(float) && offsetof(Ray, t_max) == 7 * sizeof(float));
+  packet.order = best_order(rays).data();
   return kernels.fill_packet(&rays[0].o.x, static_cast<int>(rays.size()), packet);
 }
 

@@ -71,7 +71,7 @@ struct KernelRay {
 };
 
 inline constexpr int kPacketRays = 64;
-/// The rays of a packet are culled in groups, each usually two rows of eight pixels.
+/// The rays of a packet are culled in groups, each usually of 4 x 4 pixels.
 inline constexpr int kGroupRays = 16, kGroups = kPacketRays / kGroupRays;
 
 /// A set of directions: center +- radius on each axis.
@@ -83,14 +83,19 @@ struct Beam {
 /// its lane.
 inline constexpr std::uint32_t kNoSlot = ~0U;
 
+/// What the near_factor and the far_factor of several rays have in common, by axis.
+struct FactorBounds {
+  bool negative[3];     ///< true if d_i is negative for all rays; valid if common_sign
+  bool common_sign[3];  ///< true if all d_i have the same sign and no 1 / d_i overflows
+  float least_near[3], greatest_near[3];  ///< bounds of the factors; valid if common_sign
+  float least_far[3], greatest_far[3];
+};
+
 /// The rays of a packet for tests of boxes, see slabs.hpp.
 struct alignas(64) PacketBoxRays {
   float near[3][kPacketRays], far[3][kPacketRays];  ///< near_factor and far_factor of each ray
   float o_of_lo[3], o_of_hi[3];  ///< origins for the lower and the upper planes of boxes
-  bool negative[3];              ///< true if d_i is negative for all rays; valid if common_sign
-  bool common_sign[3];           ///< true if all d_i have the same sign and no 1 / d_i overflows
-  float least_near[3], greatest_near[3];  ///< bounds of the factors; valid if common_sign
-  float least_far[3], greatest_far[3];
+  FactorBounds bounds;
 };
 
 /// Rays with a common origin within the limits of KernelRay, stored in one array per component.
@@ -103,7 +108,8 @@ struct alignas(64) KernelPacket {
   std::uint32_t best_id[kPacketRays];
   std::uint32_t best_slot[kPacketRays];  ///< of the nearest hit, if it is a triangle in a block
   float o[3];
-  int count;  ///< number of rays
+  int count;                  ///< number of rays
+  const std::uint8_t* order;  ///< the index of the ray at each place, see packet_order.hpp
   PacketBoxRays boxes;
   float t_begin[kPacketRays];      ///< as in KernelRay
   float least_t_begin;             ///< the least t_begin of all rays
@@ -209,8 +215,8 @@ struct Kernels {
   /// Returns true if there is any hit within the ray's interval.
   bool (*any)(const TreeView& tree, KernelRay ray, const Fallback& slow);
   /// Fills a packet with up to kPacketRays rays and no hits. Each ray consists of eight numbers: o,
-  /// t_min, d, t_max. Returns false if the origins differ, or if a ray is invalid or exceeds the
-  /// limits; the packet is then unusable.
+  /// t_min, d, t_max. The caller has set the packet's order. Returns false if the origins differ,
+  /// or if a ray is invalid or exceeds the limits; the packet is then unusable.
   bool (*fill_packet)(const float* rays, int count, KernelPacket& packet);
   /// Does what `closest` does for all rays of a filled packet.
   void (*closest_of_packet)(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow);

@@ -33,7 +33,7 @@ auto kernel_for(const ShapeKernels& kernels, const Quadric&) {
 
 PacketResolver::PacketResolver(const Primitives& primitives, const Kernels& kernels,
                                std::span<const Ray> rays, const KernelPacket& packet)
-    : primitives_(&primitives), kernels_(&kernels.shapes), rays_(rays) {
+    : primitives_(&primitives), kernels_(&kernels.shapes), rays_(rays), order_(packet.order) {
   std::ranges::fill(bounds_.id, kNoPrimitive);
   std::ranges::copy(packet.best_hi, bounds_.t_max);
 }
@@ -41,7 +41,7 @@ PacketResolver::PacketResolver(const Primitives& primitives, const Kernels& kern
 void PacketResolver::consider_all(PrimitiveId id, KernelPacket& packet) {
   const auto consider_one = [&](std::size_t i) {
     ClosestSoFar best{.lo = packet.best_lo[i], .hi = packet.best_hi[i], .id = packet.best_id[i]};
-    HitResolver(*primitives_, rays_[i]).consider(id, best);
+    HitResolver(*primitives_, ray_at(i)).consider(id, best);
     put(packet, i, best);
   };
   primitives_->visit(id, [&]<class AnyShape>(const AnyShape& shape) {
@@ -64,8 +64,8 @@ PacketFallback PacketResolver::fallback() {
           .consider =
               [](void* context, int ray, std::uint32_t id, ClosestSoFar& best) {
                 const auto* resolver = static_cast<const PacketResolver*>(context);
-                HitResolver(*resolver->primitives_, resolver->rays_[static_cast<std::size_t>(ray)])
-                    .consider(id, best);
+                const Ray& asked = resolver->ray_at(static_cast<std::size_t>(ray));
+                HitResolver(*resolver->primitives_, asked).consider(id, best);
               },
           .consider_all =
               [](void* context, std::uint32_t id, KernelPacket& packet) {
@@ -76,7 +76,7 @@ PacketFallback PacketResolver::fallback() {
 Hit PacketResolver::hit(std::size_t i, PrimitiveId id) const {
   const auto below = static_cast<float>(bounds_.lo[i]), above = static_cast<float>(bounds_.hi[i]);
   if (bounds_.id[i] == id && below == above) return {.id = id, .t = below + 0.0F};  // not -0
-  return HitResolver(*primitives_, rays_[i]).hit(id);
+  return HitResolver(*primitives_, ray_at(i)).hit(id);
 }
 
 }  // namespace microtrace

@@ -5,6 +5,8 @@
 #include "accel/kernels/kernel.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace microtrace {
@@ -22,14 +24,17 @@ class PacketResolver {
   /// Returns callbacks for kernels. This object must outlive the result.
   [[nodiscard]] PacketFallback fallback();
 
-  /// Returns the hit of ray i with primitive `id`, which must be its nearest one, with t rounded
-  /// once.
+  /// Returns the hit of the ray at place i with primitive `id`, which must be its nearest one, with
+  /// t rounded once.
   [[nodiscard]] Hit hit(std::size_t i, PrimitiveId id) const;
 
  private:
+  [[nodiscard]] const Ray& ray_at(std::size_t i) const { return rays_[order_[i]]; }
+
   const Primitives* primitives_;
   const ShapeKernels* kernels_;
   std::span<const Ray> rays_;
+  const std::uint8_t* order_;
   ShapeBounds bounds_;
 };
 

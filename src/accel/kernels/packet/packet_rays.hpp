@@ -38,7 +38,7 @@ inline bool read_rows(const float* rays, KernelPacket& packet) {
   for (int i = 0; i < kPacketRays; i += 8) {
     Float<8> column[8];
     for (int k = 0; k < 8; ++k) {
-      const std::ptrdiff_t ray = i + k < packet.count ? i + k : packet.count - 1;
+      const std::ptrdiff_t ray = i + k < packet.count ? packet.order[i + k] : packet.count - 1;
       column[k] = load<8>(rays + 8 * ray);
     }
     transpose(column);
@@ -128,7 +128,7 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
     packet.d_sum += greater(-tile_least[axis], tile_greatest[axis]);
   packet.d_sum *= 1 + 0x1p-21F;
   packet.least_t_begin = least_of<N>(least_t_begin);
-  bound_factors(tile_least, tile_greatest, packet.boxes);
+  bound_factors(tile_least, tile_greatest, packet.boxes.bounds);
   return true;
 }
 

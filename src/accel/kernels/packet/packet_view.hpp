@@ -4,6 +4,7 @@
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"
+#include "accel/kernels/packet/packet_boxes.hpp"
 #include "accel/kernels/simd.hpp"
 
 namespace microtrace {
@@ -22,8 +23,8 @@ struct PacketView {
   Lanes seen[kGroups]{};  ///< for each group, the triangles that its rays do not certainly miss
   Lanes two_sided = 0;    ///< triangles for which the sign of n . d is not the same for all rays
 
-  PacketView(const TriangleBlock& block, const KernelPacket& packet) {
-    for (int i = 0; i < kWidth; i += N) look_at(block, packet, i);
+  PacketView(const TriangleBlock& block, const KernelPacket& packet, Groups groups) {
+    for (int i = 0; i < kWidth; i += N) look_at(block, packet, groups, i);
   }
 
  private:
@@ -58,7 +59,7 @@ struct PacketView {
     microtrace::store<N>(to[2] + i, a.z);
   }
 
-  void look_at(const TriangleBlock& block, const KernelPacket& packet, int i) {
+  void look_at(const TriangleBlock& block, const KernelPacket& packet, Groups groups, int i) {
     const Vector corner{load<N>(block.a[0] + i), load<N>(block.a[1] + i), load<N>(block.a[2] + i)};
     const Vector a{corner.x - packet.o[0], corner.y - packet.o[1], corner.z - packet.o[2]};
     const Vector e1{load<N>(block.b[0] + i) - corner.x, load<N>(block.b[1] + i) - corner.y,
@@ -91,11 +92,11 @@ struct PacketView {
     // the group. The third form has nine roundings, for which 18 units would suffice; three times
     // the bound is more than enough.
     const Vector r{normal.x - p.x - q.x, normal.y - p.y - q.y, normal.z - p.z - q.z};
-    for (int group = 0; group < kGroups; ++group) {
+    for_each_group(groups, [&](int group) {
       const Beam& beam = packet.group_beam[group];
       const F within = lesser(lesser(greatest(beam, p), greatest(beam, q)), greatest(beam, r));
       seen[group] |= (both | less_equal<N>(-3 * bound, within)) << i;
-    }
+    });
 
     store(u, i, p);
     store(v, i, q);
