@@ -110,11 +110,7 @@ bool Bvh::Impl::intersect_packet(std::span<const Ray> rays,
   for (const PrimitiveId id : outside) resolver.consider_all(id, packet);
   const TreeView tree_view = view();
   if (has_tree) kernels->closest_of_packet(tree_view, packet, resolver.fallback());
-  const auto found = hits.first(rays.size());
-  if (tree.instances.empty())
-    round_hits(resolver, *kernels, has_tree ? &tree_view : nullptr, packet, found);
-  else
-    round_hits_of_instances(primitives, *kernels, rays, packet, found);
+  round_hits(resolver, *kernels, has_tree ? &tree_view : nullptr, packet, hits.first(rays.size()));
   return true;
 }
 

@@ -1,5 +1,6 @@
 #include "accel/hit_rounding.hpp"
 
+#include "accel/packet_order.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 #include "accel/resolve/packet_resolver.hpp"
 
@@ -102,24 +103,10 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
   });
   const std::uint64_t certain = triangles != 0 ? kernels.round_t(batch) & triangles : 0;
   const auto resolve = [&](std::size_t i, PrimitiveId id) {
-    return HitResolver(primitives, found.rays[found.order[i]]).hit(id);
+    return HitResolver(primitives, found.rays[i]).hit(id);
   };
-  write_hits(found.ids, found.order, {.certain = certain, .t = batch.t}, resolve,
+  write_hits(found.ids, kGivenOrder.data(), {.certain = certain, .t = batch.t}, resolve,
              hits.first(count));
-}
-
-void round_hits_of_instances(const Primitives& primitives, const Kernels& kernels,
-                             std::span<const Ray> rays, const KernelPacket& packet,
-                             std::span<std::optional<Hit>> hits) {
-  static_assert(kHitBatch == kPacketRays);
-  alignas(64) float o[3][kHitBatch];
-  for (int axis = 0; axis < 3; ++axis) std::fill_n(o[axis], kHitBatch, packet.o[axis]);
-  const FoundHits found{.rays = rays,
-                        .ids = packet.best_id,
-                        .o = {o[0], o[1], o[2]},
-                        .d = {packet.d[0], packet.d[1], packet.d[2]},
-                        .order = packet.order};
-  round_hits(primitives, kernels, found, hits);
 }
 
 void round_hits(const PacketResolver& resolver, const Kernels& kernels, const TreeView* tree,

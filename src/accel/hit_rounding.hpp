@@ -2,7 +2,6 @@
 /// Converts the results of kernels to hits with correctly rounded t.
 
 #include "accel/kernels/kernel.hpp"
-#include "accel/packet_order.hpp"
 
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
@@ -21,19 +20,12 @@ struct FoundHits {
   std::span<const Ray> rays;
   const std::uint32_t* ids;
   const float *o[3], *d[3];  ///< origins and directions, in arrays of kHitBatch elements
-  const std::uint8_t* order = kGivenOrder.data();  ///< the index of each element's ray
 };
 
-/// Sets hits[k] to the hit of rays[k], k = order[i], with primitive ids[i], with t rounded once.
+/// Sets hits[i] to the hit of rays[i] with primitive ids[i], with t rounded once.
 /// The rays must be within the kernels' limits.
 void round_hits(const Primitives& primitives, const Kernels& kernels, const FoundHits& found,
                 std::span<std::optional<Hit>> hits);
-
-/// Does the same for the nearest hits of a packet of rays in a scene with instances, whose
-/// triangles have no slots.
-void round_hits_of_instances(const Primitives& primitives, const Kernels& kernels,
-                             std::span<const Ray> rays, const KernelPacket& packet,
-                             std::span<std::optional<Hit>> hits);
 
 /// Sets the hit of each ray of a packet to its nearest one. `tree` is null if there is none.
 void round_hits(const PacketResolver& resolver, const Kernels& kernels, const TreeView* tree,

@@ -79,9 +79,21 @@ struct Beam {
   float center[3], radius[3];
 };
 
+inline constexpr int kHitBatch = kPacketRays;
+
+/// Hits of triangles, stored in one array per coordinate. Elements without a hit may have any
+/// values.
+struct alignas(64) HitBatch {
+  float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];  ///< vertices
+  const float *o[3], *d[3];  ///< origins and directions, within the kernels' limits
+  float t[kHitBatch];        ///< resulting parameters
+};
+
 /// Stands for "no slot". The slot of a triangle in the tree is its block's index times kWidth plus
 /// its lane.
 inline constexpr std::uint32_t kNoSlot = ~0U;
+/// Stands for the slot of an instance's triangle, which is not in the tree.
+inline constexpr std::uint32_t kPlacedSlot = ~1U;
 
 /// What the near_factor and the far_factor of several rays have in common, by axis.
 struct FactorBounds {
@@ -107,6 +119,7 @@ struct alignas(64) KernelPacket {
   float best_lo[kPacketRays], best_hi[kPacketRays];  ///< as in ClosestSoFar
   std::uint32_t best_id[kPacketRays];
   std::uint32_t best_slot[kPacketRays];  ///< of the nearest hit, if it is a triangle in a block
+  HitBatch placed;                       ///< the hits whose slot is kPlacedSlot
   float o[3];
   int count;                  ///< number of rays
   const std::uint8_t* order;  ///< the index of the ray at each place, see packet_order.hpp
@@ -154,16 +167,6 @@ struct alignas(64) KernelStream {
 struct StreamFallback {
   void* context;
   void (*consider)(void* context, int ray, std::uint32_t id, ClosestSoFar& best);
-};
-
-inline constexpr int kHitBatch = kPacketRays;
-
-/// Hits of triangles, stored in one array per coordinate. Elements without a hit may have any
-/// values.
-struct alignas(64) HitBatch {
-  float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];  ///< vertices
-  const float *o[3], *d[3];  ///< origins and directions, within the kernels' limits
-  float t[kHitBatch];        ///< resulting parameters
 };
 
 inline constexpr std::uint32_t kOtherSlot = 1U << 31U, kIdSlot = ~0U;

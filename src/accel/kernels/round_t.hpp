@@ -108,10 +108,11 @@ class PacketRounding {
       const std::uint32_t* slots = packet_.best_slot + i;
       const Lanes hits = ~lanes_within(slots, kNoSlot, kNoSlot) & kAllLanes<kWidth>;
       if (hits == 0) continue;
-      const std::uint32_t slot = slots[first_lane(hits)];
-      const bool is_one = (hits & ~lanes_within(slots, slot, slot)) == 0;
+      const int some = i + first_lane(hits);
+      const std::uint32_t slot = packet_.best_slot[some];
+      const bool is_one = slot != kPlacedSlot && (hits & ~lanes_within(slots, slot, slot)) == 0;
       for (int k = 0; k < kWidth; k += N)
-        certain |= std::uint64_t{(is_one ? round_one(slot, i + k) : round_several(slot, i + k)) &
+        certain |= std::uint64_t{(is_one ? round_one(slot, i + k) : round_several(some, i + k)) &
                                  (hits >> k)}
                    << (i + k);
     }
@@ -136,18 +137,24 @@ class PacketRounding {
     return round_t<N>(plane_, d(i), size_error_, t_ + i);
   }
 
-  // Rounds t for N rays that may hit different triangles. Rays without a hit use the triangle
-  // `other`.
-  Lanes round_several(std::uint32_t other, int i) const {
+  // Rounds t for N rays that may hit different triangles. Rays without a hit use the triangle of
+  // ray `other`.
+  Lanes round_several(int other, int i) const {
     float a[3][N], b[3][N], c[3][N];
-    for (int lane = 0; lane < N; ++lane) {
-      const std::uint32_t at = packet_.best_slot[i + lane], slot = at == kNoSlot ? other : at;
-      const TriangleBlock& block = tree_.blocks[slot / kWidth];
+    const auto put = [&](int lane, const auto& triangles, std::uint32_t k) {
       for (int axis = 0; axis < 3; ++axis) {
-        a[axis][lane] = block.a[axis][slot % kWidth];
-        b[axis][lane] = block.b[axis][slot % kWidth];
-        c[axis][lane] = block.c[axis][slot % kWidth];
+        a[axis][lane] = triangles.a[axis][k];
+        b[axis][lane] = triangles.b[axis][k];
+        c[axis][lane] = triangles.c[axis][k];
       }
+    };
+    for (int lane = 0; lane < N; ++lane) {
+      const int ray = packet_.best_slot[i + lane] == kNoSlot ? other : i + lane;
+      const std::uint32_t slot = packet_.best_slot[ray];
+      if (slot == kPlacedSlot)
+        put(lane, packet_.placed, static_cast<std::uint32_t>(ray));
+      else
+        put(lane, tree_.blocks[slot / kWidth], slot % kWidth);
     }
     const auto vertex = [](const float(&p)[3][N]) {
       return Double3<Double<N>>{widened<N>(p[0]), widened<N>(p[1]), widened<N>(p[2])};

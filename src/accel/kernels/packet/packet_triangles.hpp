@@ -67,7 +67,7 @@ class PacketTriangles {
   }
 
   static std::uint32_t slot(std::uint32_t block, int lane) {
-    return block == kNoBlock ? kNoSlot : block * kWidth + static_cast<std::uint32_t>(lane);
+    return block == kNoBlock ? kPlacedSlot : block * kWidth + static_cast<std::uint32_t>(lane);
   }
 
   struct Quotient {
@@ -104,11 +104,15 @@ class PacketTriangles {
       store<N>(packet_.best_hi + i, select<N>(nearer, hi, best_hi));
       store_where<N>(nearer, id, packet_.best_id + i);
       store_where<N>(nearer, triangle.slot, packet_.best_slot + i);
+      if (triangle.slot == kPlacedSlot) {
+        for (Lanes lanes = nearer; lanes != 0; lanes &= lanes - 1)
+          keep_vertices(triangle, i + first_lane(lanes));
+      }
     }
     for (Lanes lanes = maybe & ~nearer & ~farther; lanes != 0; lanes &= lanes - 1) {
       const int ray = i + first_lane(lanes);
       // A triangle with references in several leaves is tested more than once.
-      if (packet_.best_id[ray] != id) decide_by_fallback(ray, id, triangle.slot);
+      if (packet_.best_id[ray] != id) decide_by_fallback(ray, id, triangle);
     }
   }
 
@@ -124,14 +128,24 @@ class PacketTriangles {
     }
   }
 
-  void decide_by_fallback(int ray, std::uint32_t id, std::uint32_t slot) {
+  void decide_by_fallback(int ray, std::uint32_t id, const Candidate& triangle) {
     ClosestSoFar best{packet_.best_lo[ray], packet_.best_hi[ray], packet_.best_id[ray]};
     slow_.consider(slow_.context, ray, id, best);
     packet_.best_lo[ray] = best.lo;
     packet_.best_hi[ray] = best.hi;
     if (best.id != id) return;
     packet_.best_id[ray] = id;
-    packet_.best_slot[ray] = slot;
+    packet_.best_slot[ray] = triangle.slot;
+    if (triangle.slot == kPlacedSlot) keep_vertices(triangle, ray);
+  }
+
+  // Transforming an instance's triangle again to round t would take longer.
+  void keep_vertices(const Candidate& triangle, int ray) {
+    for (int axis = 0; axis < 3; ++axis) {
+      packet_.placed.a[axis][ray] = triangle.block.a[axis][triangle.lane];
+      packet_.placed.b[axis][ray] = triangle.block.b[axis][triangle.lane];
+      packet_.placed.c[axis][ray] = triangle.block.c[axis][triangle.lane];
+    }
   }
 
   KernelPacket& packet_;
