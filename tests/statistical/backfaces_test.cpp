@@ -1,5 +1,6 @@
 /// Tests light at the backs of one-sided surfaces.
 #include "support/pictures.hpp"
+#include "support/shading/bodies.hpp"
 
 #include <array>
 #include <cstdint>
@@ -102,6 +103,24 @@ TEST(Backfaces, HullsDoNotBlockLight) {
         << name;
     EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0) << name;
   }
+}
+
+// A medium absorbs light on its whole way, also before an open front lets it in.
+TEST(Backfaces, MediaAbsorbLightBeyondOpenFronts) {
+  Model model;
+  Material water = glass_body(Vec3(0.6F), 0);
+  water.ior = 1.33F;
+  model.scene.materials.push_back(water);
+  model.scene.objects.push_back({.name = "water",
+                                 .shape = Plane{.point = {0, 7, 0}, .normal = {0, 1, 0}},
+                                 .material = kLamp + 1});
+  model.add(box({-2, 3, 0}, {1.5F, 0.1F, 3}, false), kLamp);
+  model.camera.pose.position.y = 8;
+  const Estimate bare = model.seen(Backfaces::pass, 3);
+  EXPECT_GT(bare.mean, 0.001);
+  model.add(parallelogram({-4, 2, -4}, {3.5F, 0, 0}, {0, 0, 8}), kHull);  // its front is below
+  const Estimate behind = model.seen(Backfaces::pass, 3);
+  EXPECT_NEAR(behind.mean, bare.mean, 5 * (bare.deviation + behind.deviation) + 0.002 * bare.mean);
 }
 
 // Queries of rays return only the first hit with a sphere or a quadric, so its front must block

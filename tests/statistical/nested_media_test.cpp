@@ -1,4 +1,5 @@
 /// Compares the radiance of bodies that lie within each other or overlap with closed-form results.
+#include "support/pi.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/bodies.hpp"
 
@@ -76,6 +77,26 @@ TEST(NestedMedia, OverlappingBodiesHaveOneBoundary) {
   const double expected =
       transmitted(1, 1.5) * transmitted(1.5, 1.33) * std::pow(0.9, 1.5) * std::pow(0.8, 4.5);
   EXPECT_NEAR(layers.seen(2), expected, 0.006 * expected);
+}
+
+// The floor lies in water that reaches through the side of its glass, the lamp beyond that side.
+// Neither paths nor shadow rays notice the glass's end inside the water.
+TEST(NestedMedia, HiddenBoundariesLetShadowRaysPass) {
+  Layers layers;
+  for (const Material& m : {medium(1.5F, 1), medium(1.33F, 0.9F)})
+    layers.scene.materials.push_back(m);
+  layers.scene.materials[0] = {
+      .base_color = Vec4(0.5F), .metallic = 0, .specular = Specular{.factor = 0}};
+  layers.add(6, true, 1);
+  layers.scene.objects.push_back(
+      {.name = "side", .shape = Plane{.point = {1, 0, 0}, .normal = {1, 0, 0}}, .material = 1});
+  layers.add(5, true, 2);
+  layers.scene.lights.push_back(
+      {.name = "lamp", .light = PointLight{.position = {2, 2, 0}, .intensity = 100}});
+  const double distance = std::sqrt(8);
+  const double expected = transmitted(1, 1.5) * transmitted(1.5, 1.33) *
+                          std::pow(0.9, 5 + distance) * 0.5 / kPi * 100 * std::sqrt(0.5) / 8;
+  EXPECT_NEAR(layers.seen(3), expected, 0.01 * expected);
 }
 
 // Two bodies of the same glass that overlap are one body.

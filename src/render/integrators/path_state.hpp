@@ -77,6 +77,7 @@ template <class Arrays>
 struct alignas(64) ShadowColumns : RayArrays {
   PathNumbers target;  ///< the emissive surface at which the ray ends, or LightSamples::kNoTarget
   PathNumbers slot;    ///< of the path
+  PathNumbers media;   ///< the media around the origin, by their number in the NestedMediaTable
   PathFloats light[3];
 };
 

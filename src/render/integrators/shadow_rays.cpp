@@ -23,6 +23,7 @@ void ShadowRays::Group::add(const ShadingKernels& kernels, Lanes lanes, const Sh
   list.add(from.left, rays.left);
   list.add(from.samples.target, rays.target);
   list.add(from.slots, rays.slot);
+  list.add(from.media, rays.media);
   list.add(from.light, rays.light);
   count += list.append(kernels, {.lanes = lanes, .from = 0, .to = count});
 }
@@ -42,7 +43,8 @@ void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLan
 }
 
 std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading& shading,
-                                Backfaces backfaces, std::span<Vec3> colors) {
+                                Backfaces backfaces, NestedMediaTable& media,
+                                std::span<Vec3> colors) {
   const bool passes_backs = backfaces == Backfaces::pass;
   std::uint64_t beyond = 0;
   const std::uint32_t* open =
@@ -56,10 +58,14 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
   const auto add_rest = [&](const ShadowColumns& arrays, const RayColumns& rays, std::size_t i,
                             const std::optional<PrimitiveId>& target) {
     const bool may_be_beside = target && shading.is_same_emitter(hits_[i], *target);
-    if (!may_pass_opaque && !may_be_beside && shading.is_opaque(hits_[i])) return;
+    const NestedMedia* here = media.at(arrays.media[i]);
+    // Only media within others hide surfaces.
+    const bool may_be_hidden = here != nullptr && here->outer != nullptr;
+    if (!may_pass_opaque && !may_be_beside && !may_be_hidden && shading.is_opaque(hits_[i])) return;
     const Ray ray = rays[i];
     add(arrays, i,
-        transmittance(bvh, shading, passes_backs, ray, bvh.intersect(ray), target, beyond));
+        transmittance(bvh, shading, passes_backs, ray, bvh.intersect(ray), target, beyond,
+                      {.table = &media, .here = here}));
   };
   const RayColumns free = columns_of(free_.rays, free_.count);
   tracer.any(free, open, std::span(hits_).first(free_.count));

@@ -4,6 +4,7 @@
 #include "accel/ray_tracer.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/kernels/kernel.hpp"
+#include "render/media/nested_media.hpp"
 #include "render/shading/shading.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -22,6 +23,7 @@ struct ShadowLanes {
   const OriginLanes& rays;
   const std::uint32_t* left;
   const std::uint32_t* slots;
+  const std::uint32_t* media;
   const LightSamples<kShadingLanes>& samples;
   const LaneFloats (&light)[3];
 };
@@ -34,10 +36,10 @@ class ShadowRays {
 
   [[nodiscard]] std::size_t count() const { return free_.count + aimed_.count; }
 
-  /// Traces the rays, adds the light that arrives to the colors, and clears the rays. Returns the
-  /// number of calls of Bvh::next.
+  /// Traces the rays, adds the light that arrives to the colors, and clears the rays. `media` has
+  /// the rays' media. Returns the number of calls of Bvh::next.
   std::uint64_t trace(RayTracer& tracer, const Bvh& bvh, const Shading& shading,
-                      Backfaces backfaces, std::span<Vec3> colors);
+                      Backfaces backfaces, NestedMediaTable& media, std::span<Vec3> colors);
 
  private:
   /// A group of rays that all have a target, or that all have none.

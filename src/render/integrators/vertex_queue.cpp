@@ -120,10 +120,12 @@ void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Outgoin
 void VertexQueue::cross_media(Lanes lanes, const NestedMediaTable& media) {
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = std::countr_zero(lanes);
+    shadow_media_[lane] = 0;
     if (media_[lane] == 0 && (!features_.transmits || below_media_[lane] == 0)) continue;
     const Vec3 wi = got(lights_.wi, lane);
     const bool is_below = glm::dot(got(scatter_.outwards, lane), wi) < 0;
-    const NestedMedia* here = media.at(is_below ? below_media_[lane] : media_[lane]);
+    shadow_media_[lane] = is_below ? below_media_[lane] : media_[lane];
+    const NestedMedia* here = media.at(shadow_media_[lane]);
     if (here == nullptr) continue;
     const Medium& medium = *here->medium;
     // Lights that are infinitely far away are visible only in media without an end. As for paths,
@@ -139,13 +141,17 @@ void VertexQueue::cross_media(Lanes lanes, const NestedMediaTable& media) {
 }
 
 void VertexQueue::cast_shadows(Lanes lanes, OutgoingRays& outgoing) {
-  if (!outgoing.media.empty()) cross_media(lanes, outgoing.media);
+  if (outgoing.media.empty())
+    std::ranges::fill(shadow_media_, 0U);
+  else
+    cross_media(lanes, outgoing.media);
   copy(origins_.direction, lights_.to_light);
   const Lanes found = outgoing.tracer.leave(lanes, origins_);
   outgoing.shadows.add(kernels_, found,
                        {.rays = origins_,
                         .left = ids_,
                         .slots = slots_,
+                        .media = shadow_media_,
                         .samples = lights_,
                         .light = scatter_.shadow});
 }

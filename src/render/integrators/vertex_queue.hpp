@@ -61,7 +61,8 @@ class VertexQueue {
   void list_next(PathColumns& paths);
   void find_frames();
   void sample_lights(const WaveStep& step, const Lighting& lighting);
-  /// Reduces the light of the samples in the given lanes by the media around the vertices.
+  /// Reduces the light of the samples in the given lanes by the media around the vertices, and
+  /// sets shadow_media_.
   void cross_media(Lanes lanes, const NestedMediaTable& media);
   /// Adds shadow rays for the given lanes.
   void cast_shadows(Lanes lanes, OutgoingRays& outgoing);
@@ -76,7 +77,7 @@ class VertexQueue {
   ColumnList from_extensions_;  // for surfaces with features
   HitPointLanes left_{};
   LaneNumbers ids_{}, on_mesh_{}, slots_{}, channels_{}, below_channels_{};
-  LaneNumbers media_{}, below_media_{}, scatterings_{};
+  LaneNumbers media_{}, below_media_{}, shadow_media_{}, scatterings_{};
   LaneFloats widths_{}, spreads_{};
   Lighting::Choices choices_{};
   LightSamples<kShadingLanes> lights_{};

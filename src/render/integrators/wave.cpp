@@ -84,7 +84,7 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
     step();
     const RayTimer timer(counts_.shadow, shadow_rays_.count() + ground_shadows_.count());
     counts_.beyond +=
-        shadow_rays_.trace(tracer_, world_->bvh, *shading_, options_.backfaces, colors_);
+        shadow_rays_.trace(tracer_, world_->bvh, *shading_, options_.backfaces, media_, colors_);
     if (records != nullptr) recorder_.note(*paths_, count_, colors_);
     if (ground_shadows_.count() == 0) continue;
     counts_.beyond += ground_shadows_.trace(

@@ -3,6 +3,7 @@
 #include "render/bsdf/put_surface.hpp"
 #include "render/integrators/wave.hpp"
 #include "render/kernels/lane_access.hpp"
+#include "render/shading/beer_lambert.hpp"
 #include "render/shading/footprint.hpp"
 
 #include <algorithm>
@@ -153,7 +154,14 @@ bool Wave::step_slowly(std::size_t first, int lane) {
   if (!hit) return false;
   if (looks_behind() && Shading::lets_light_in(point) && (layer > 0 || may_get_light(i))) {
     const Behind behind = look_behind(i, *hit, point, layer);
-    if (behind.is_open) return false;
+    const NestedMedia* media = media_.at(paths.media[i]);
+    // No light arrives from infinitely far away through a medium that scatters.
+    if (behind.is_open) return media != nullptr && media->medium->scatters();
+    if (behind.hit && media != nullptr) {
+      const float rest = behind.point.at.distance - point.at.distance;
+      put_vector(paths.throughput, i,
+                 vector_of(paths.throughput, i) * beer_lambert(media->medium->extinction, rest));
+    }
     if (behind.hit) hit = behind.hit, point = behind.point;
   }
   if (from_camera) alphas_[paths.slot[i]] = 1;

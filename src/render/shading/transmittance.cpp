@@ -22,12 +22,15 @@ bool hits_beside(const Shading& shading, const Ray& ray, const Hit& hit, Primiti
 
 float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
                     std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
-                    std::uint64_t& beyond) {
+                    std::uint64_t& beyond, AroundRay around) {
   float transmittance = 1;
   while (hit && hit->id != target && !(target && hits_beside(shading, ray, *hit, *target))) {
     const ShadingPoint point = shading.point(ray, *hit);
+    const Medium* own = Shading::enclosed_medium(point);
     // If the ray hits a front, the light comes from behind it.
-    if (!(passes_backs && Shading::lets_light_in(point)))
+    if (NestedMediaTable::is_hidden(own, point.at.front, around.here))
+      around.here = around.table->without(around.here, *own);
+    else if (!(passes_backs && Shading::lets_light_in(point)))
       transmittance *= 1 - shading.coverage(point, false);
     if (transmittance == 0) return 0;
     hit = bvh.next(ray, *hit);
