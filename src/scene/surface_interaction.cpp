@@ -139,8 +139,10 @@ class Interaction {
   SurfaceInteraction operator()(const Mesh&) const { return {}; }  // never called
 
  private:
-  /// The parameter of the hit with a sphere; nothing if the ray nearly touches it.
+  /// The parameter of the hit with a sphere; nothing if the ray nearly touches it, or if the
+  /// parameter exceeds float32.
   [[nodiscard]] std::optional<double> hit_of(const Sphere& s) const {
+    if (!std::isfinite(hit_.t)) return std::nullopt;
     const DVec3 from_center = o_ - DVec3(s.center), across = glm::cross(from_center, d_);
     const double a = glm::dot(d_, d_), b = glm::dot(from_center, d_), r = s.radius;
     // By Lagrange's identity. The difference b^2 - a c would cancel for distant spheres.
@@ -169,7 +171,7 @@ class Interaction {
   [[nodiscard]] SurfaceInteraction planar(const auto& s, const DVec3& point) const {
     const DVec3 normal(s.normal);
     const double t = glm::dot(point - o_, normal) / glm::dot(d_, normal);
-    if (!(std::abs(t - hit_.t) <= 0x1p-22 * hit_.t)) return exactly(s);
+    if (!std::isfinite(hit_.t) || !(std::abs(t - hit_.t) <= 0x1p-22 * hit_.t)) return exactly(s);
     return at(o_ + t * d_, direction_or(normal, facing()));
   }
 

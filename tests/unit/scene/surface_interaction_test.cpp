@@ -225,5 +225,20 @@ TEST(SurfaceInteraction, DistantPointsOfQuadricsAreFinite) {
   EXPECT_EQ(meet(Quadric{.a = 1, .b = -1}, ray).p, DVec3(4, 4, -4));
 }
 
+TEST(SurfaceInteraction, ParametersBeyondFloat32FindTheRightPoint) {
+  // The other root is negative.
+  const SurfaceInteraction within =
+      meet(Sphere{{0, 0, 0}, 1}, {.o = {0, 0, 0}, .d = {1e-39F, 0, 0}});
+  EXPECT_EQ(within.p, DVec3(1, 0, 0));
+  EXPECT_EQ(within.n, DVec3(1, 0, 0));
+  EXPECT_FALSE(within.front);
+  // In float64, n . d is 0. Exactly, it is -3 * 2^-149.
+  const SurfaceInteraction oblique =
+      meet(Plane{{0, -1, 1}, {-1, 1, -1}},
+           {.o = {-0.49999997F, 1, 0.9999999F}, .d = {0x1.8p-148F, 1, 1}});
+  EXPECT_NEAR(oblique.p.y / 5.95e44, 1, 0.01);
+  EXPECT_TRUE(oblique.front);
+}
+
 }  // namespace
 }  // namespace microtrace
