@@ -154,7 +154,11 @@ class Compare(ProgramTest):
         self.draw("a.png")
         whole = (self.folder / "a.png").read_bytes()
         self.draw("a.exr")
-        cases = {"empty.png": b"", "cut.png": whole[:200], "cut.exr": (self.folder / "a.exr").read_bytes()[:300], "text.png": b"hello",
+        jpeg = (SCENES.parent / "tests/golden/images/jpeg/444_progressive.jpg").read_bytes()
+        (self.folder / "whole.jpg").write_bytes(jpeg)
+        self.compare("whole.jpg", "whole.jpg", code=0)
+        cases = {"empty.png": b"", "cut.jpg": jpeg[:len(jpeg) * 2 // 3], "cut.png": whole[:200], "half.png": whole[:len(whole) * 2 // 3],
+                 "cut.exr": (self.folder / "a.exr").read_bytes()[:300], "text.png": b"hello",
                  "short.ppm": b"P6\n9 9\n255\nabc", "big.ppm": b"P6\n99999 99999\n255\nabc", "zero.ppm": b"P6\n0 9\n255\n",
                  "letters.ppm": b"P3\n1 1\n255\n1 2 x\n", "above.ppm": b"P3\n1 1\n255\n1 2 256\n", "huge.ppm": b"P6\n99999999999999999999 1\n255\n",
                  "head.ppm": b"P6", "comment.ppm": b"P6 #"}

@@ -298,6 +298,11 @@ class Dataset(ProgramTest):
         # A wrong camera is refused before the first view, so the folder takes the corrected list.
         self.assertIn("--views: view 1: there is no camera nobody",
                       self.dataset(*self.views({}, {"camera": "nobody"}), code=2, output="corrected"))
+        # So are wrong variants and environments.
+        self.assertIn('--views: view 2: there is no variant "red"; the scene has none',
+                      self.dataset(*self.views({}, {}, {"variant": "red"}), code=2, output="corrected"))
+        self.assertIn("--views: view 1: no.hdr can't be opened",
+                      self.dataset(*self.views({}, {"environment": {"light": "no.hdr"}}), code=5, output="corrected"))
         self.dataset(*self.views({}, {"camera": "0"}), output="corrected")
         for generator in ("orbit:0", "orbit:3,91", "hemisphere:2.5", "random:3,4", "orbit:"):
             self.assertIn("--views: expects", self.dataset("--views", generator, code=2))

@@ -82,7 +82,12 @@ Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
   check_names(arguments_, views_);
   renderer_.emplace(arguments_, warnings_);
   renderer_->load(views_.front());  // the same view in all shards, so that the digests agree
-  for (std::uint32_t i = 0; i < views_.size(); ++i) renderer_->check_camera(views_[i], i);
+  std::set<std::tuple<std::optional<std::string>, std::optional<std::string>>> looks;
+  for (std::uint32_t i = 0; i < views_.size(); ++i) {
+    renderer_->check_camera(views_[i], i);
+    if (looks.emplace(views_[i].variant, views_[i].environment).second)
+      renderer_->check_look(views_[i], i);
+  }
   identity_ = identity_of(arguments_, views_, digest.value(), renderer_->denoiser());
 }
 

@@ -1,6 +1,8 @@
 #include "cli/dataset/view_renderer.hpp"
 
+#include "base/printable.hpp"
 #include "cli/dataset/plan.hpp"
+#include "cli/options/values.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
 
@@ -9,6 +11,7 @@
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -26,6 +29,10 @@ void create_folder_of(const fs::path& path) {
 Camera in_scene(const Scene& scene, Camera camera) {
   std::visit([&](auto& c) { c.pose.position -= scene.origin; }, camera);
   return camera;
+}
+
+std::string place_of(std::uint32_t index) {
+  return "--views: view " + std::to_string(index);
 }
 
 }  // namespace
@@ -103,6 +110,30 @@ void ViewRenderer::check_camera(const DatasetView& view, std::uint32_t index) co
   if (name != nullptr && !name->empty()) (void)camera_of(view, index, {});
 }
 
+void ViewRenderer::check_look(const DatasetView& view, std::uint32_t index) const {
+  const std::string place = place_of(index);
+  if (view.variant && !view.variant->empty()) check_variant(*view.variant, place);
+  if (!view.environment) return;
+  const EnvironmentSource source =
+      parse_environment({.option = place + ": the environment", .text = *view.environment});
+  const auto* path = std::get_if<fs::path>(&source);
+  if (path != nullptr && !std::ifstream(*path))
+    throw Error(ErrorKind::io, place, printable(path->string()) + " can't be opened");
+}
+
+void ViewRenderer::check_variant(const std::string& wanted, const std::string& place) const {
+  const std::vector<std::string> names = file_->choices().variants;
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string number = std::to_string(i);
+    if (names[i] == wanted || number == wanted) return;
+    list.append(i == 0 ? "" : ", ").append(number).append(" (" + printable(names[i]) + ")");
+  }
+  throw Error(ErrorKind::usage, place,
+              "there is no variant \"" + printable(wanted) + "\"; " +
+                  (names.empty() ? "the scene has none" : "the scene has " + list));
+}
+
 Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, ImageSize size) const {
   if (const auto* camera = std::get_if<Camera>(&view.camera)) return in_scene(*scene_, *camera);
   CameraOptions options = arguments_.camera;
@@ -114,7 +145,7 @@ Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, Ima
   } else if (const auto& name = std::get<std::string>(view.camera); !name.empty()) {
     options = {};
     options.camera = name;
-    options.place = "--views: view " + std::to_string(index);
+    options.place = place_of(index);
   }
   return choose_camera(*scene_, options, size);
 }

@@ -41,6 +41,8 @@ class ViewRenderer {
 
   /// Throws Error (usage) if the loaded scene lacks the camera that view number `index` names.
   void check_camera(const DatasetView& view, std::uint32_t index) const;
+  /// Throws Error if the scene lacks the variant, or the file of the environment can't be opened.
+  void check_look(const DatasetView& view, std::uint32_t index) const;
 
   /// Renders a view into files in `folder`, whose subfolders are created. Returns their names,
   /// relative to the folder. Throws Error.
@@ -50,6 +52,7 @@ class ViewRenderer {
  private:
   [[nodiscard]] Camera camera_of(const DatasetView& view, std::uint32_t index,
                                  ImageSize size) const;
+  void check_variant(const std::string& wanted, const std::string& place) const;
   void load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings);
   /// Throws Error (usage) if BOP is written and the loaded scene has other objects than the first.
   void check_objects();

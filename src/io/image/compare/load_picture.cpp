@@ -76,7 +76,9 @@ StoredPicture load(const std::filesystem::path& path) {
   if (decoded.no_module) throw Error(ErrorKind::unsupported, name, decoded.complaint);
   if (decoded.too_large)
     throw Error(ErrorKind::limit, name, "has too many pixels, at most 2^28 as memory allows");
-  if (!decoded.image) throw Error(ErrorKind::io, name, "can't be decoded: " + decoded.complaint);
+  // An incomplete picture has both pixels and a complaint.
+  if (!decoded.image || !decoded.complaint.empty())
+    throw Error(ErrorKind::io, name, "can't be decoded: " + decoded.complaint);
   return stored(*decoded.image);
 }
 

@@ -1,6 +1,7 @@
 #include "io/image/decode/decode_colors.hpp"
 
 #include "base/memory_account.hpp"
+#include "io/image/decode/image_header.hpp"
 #include "io/image/module.hpp"
 #include "io/module_function.hpp"
 
@@ -82,6 +83,10 @@ DecodedColors decode_colors(const std::string& bytes, const std::filesystem::pat
     throw Error(ErrorKind::unsupported, path.string(),
                 function.complaint + "; install " + module.package + " and build the target " +
                     module.target + ", or " + purpose.otherwise);
+  }
+  if (is_cut_off_jpeg(bytes)) {
+    throw Error(ErrorKind::io, path.string(),
+                std::string("can't be decoded: the file ends too early; ") + purpose.hint);
   }
   ColorDecoding decoded;
   const MicrotraceColorSink sink{&decoded, begin_colors, complain_of_colors};

@@ -38,16 +38,28 @@ std::optional<Size> png_size(std::string_view bytes) {
   return Size{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
 }
 
+/// The first marker of a JPEG segment from `at` on, or npos.
+std::size_t find_jpeg_segment(std::string_view bytes, std::size_t at) {
+  for (; at + 4 <= bytes.size(); ++at) {
+    const std::uint32_t marker = byte(bytes, at + 1);
+    if (byte(bytes, at) == 0xFF && marker != 0xFF && marker != 0) return at;
+  }
+  return std::string_view::npos;
+}
+
+std::size_t end_of_jpeg_segment(std::string_view bytes, std::size_t at) {
+  const std::uint32_t marker = byte(bytes, at + 1);
+  const bool alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
+  return at + (alone ? 2 : 2 + std::max(big_endian(bytes, at + 2, 2), 2U));
+}
+
 /// Reads a JPEG header (ITU-T T.81, annex B) by following segments up to the frame header SOFn.
 /// Skips bytes between segments, like libjpeg. A file that does not start with a segment and has no
 /// frame is invalid.
 std::optional<Size> jpeg_size(std::string_view bytes) {
-  for (std::size_t at = 2; at + 4 <= bytes.size();) {
+  for (std::size_t at = find_jpeg_segment(bytes, 2); at != bytes.npos;
+       at = find_jpeg_segment(bytes, end_of_jpeg_segment(bytes, at))) {
     const std::uint32_t marker = byte(bytes, at + 1);
-    if (byte(bytes, at) != 0xFF || marker == 0xFF || marker == 0) {
-      ++at;
-      continue;
-    }
     const bool is_frame =
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (is_frame) {
@@ -55,8 +67,6 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
       return Size{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
     }
     if (marker == 0xD9 || marker == 0xDA) return kNoSize;
-    const bool alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
-    at += alone ? 2 : 2 + std::max(big_endian(bytes, at + 2, 2), 2U);
   }
   if (bytes.size() > 3 && byte(bytes, 3) == 0) return kNoSize;
   return std::nullopt;
@@ -93,6 +103,15 @@ ImageHeader header(ImageFormat format, const std::optional<Size>& size) {
 }
 
 }  // namespace
+
+bool is_cut_off_jpeg(std::string_view bytes) {
+  if (!bytes.starts_with("\xff\xd8\xff")) return false;
+  std::size_t at = find_jpeg_segment(bytes, 2);
+  while (at != bytes.npos && byte(bytes, at + 1) != 0xDA)
+    at = find_jpeg_segment(bytes, end_of_jpeg_segment(bytes, at));
+  // In the data of a scan, 0xFF is followed by 0.
+  return at == bytes.npos || bytes.find("\xff\xd9", at) == bytes.npos;
+}
 
 ImageHeader read_image_header(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return header(ImageFormat::png, png_size(bytes));

@@ -19,4 +19,8 @@ struct ImageHeader {
 /// Reads the header of an image. `bytes` must be the whole file.
 [[nodiscard]] ImageHeader read_image_header(std::string_view bytes);
 
+/// True if the bytes begin as a JPEG, but lack its end. Some libraries fill the missing part with
+/// gray without an error.
+[[nodiscard]] bool is_cut_off_jpeg(std::string_view bytes);
+
 }  // namespace microtrace::io
