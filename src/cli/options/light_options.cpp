@@ -86,20 +86,22 @@ constexpr std::array kDisplayOptions{
            .help = "exposure of 8-bit pictures in stops, -64 to 64: radiance is multiplied by "
                    "2^EV; auto, for single pictures and sequences: the exposure nearest to 0 at "
                    "which surfaces are neither blown out nor black",
-           .default_value = "auto for pictures and sequences of path-traced glTF assets with "
-                            "lights, else 0; for merge, that of the first samples",
+           .default_value = "auto for renderings of path-traced glTF assets with lights, "
+                            "except data sets; for merge, that of the first samples; else 0",
            .samples = Samples::keep,
            .words = [] { return std::vector<std::string>{"auto"}; },
            .set = set_exposure},
-    Option{.names = "--tonemap",
-           .metavar = "NAME",
-           .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",
-           .default_value =
-               "khronos-pbr-neutral for path, else none; for merge, that of the first samples",
-           .samples = Samples::keep,
-           .words = tone_map_names,
-           .set = [](Arguments& a,
-                     const OptionValue& value) { a.display.tone_map = parse_tone_map(value); }},
+    Option{
+        .names = "--tonemap",
+        .metavar = "NAME",
+        .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",
+        .default_value =
+            "khronos-pbr-neutral for path-traced renderings; for merge, that of the first samples; "
+            "else none",
+        .samples = Samples::keep,
+        .words = tone_map_names,
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.display.tone_map = parse_tone_map(value); }},
     Option{
         .names = "--ppm",
         .metavar = "KIND",

@@ -17,7 +17,7 @@ void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t sam
   }
   if (names.empty()) return;
   std::string exposure;
-  if (display.automatic != AutomaticExposure::never && display.exposure.value_or(0) != 0)
+  if (display.exposure.value_or(0) != 0)
     exposure = " exposure " + shortest(*display.exposure) + ",";
   std::fprintf(stderr, "wrote %s: %u x %u pixels, %u sample%s each,%s in %.*f s\n", names.c_str(),
                size.width, size.height, samples, samples == 1 ? "" : "s", exposure.c_str(),
