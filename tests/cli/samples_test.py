@@ -6,6 +6,7 @@ usage: samples_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -266,6 +267,20 @@ class Samples(ProgramTest):
         self.assertIn(b"same: was written by another program meanwhile", first.communicate(timeout=60)[1])
         self.assertEqual(first.returncode, 5)
         self.assertEqual(self.bytes_of("same"), self.bytes_of("other"))
+
+    def test_checkpoints_that_cannot_be_written_do_not_cost_the_picture(self):
+        expected = self.whole("--spp", "16")
+        # The picture fits within this limit of file sizes, the checkpoint doesn't.
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000))
+        result = self.run_program(SCENE, *LIGHT, "--spp", "16", "--checkpoint", "c", "--save-every", "0", "-o", "a.ppm", preexec_fn=limit)
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertEqual(result.stderr.count(b"warning: c: can't be written"), 1, result.stderr)
+        self.assertIn(b"error: c: can't be written", result.stderr)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir() if p.name.endswith(("c", "a.ppm"))), ["a.ppm"])
+        self.assertEqual(self.bytes_of("a.ppm"), expected)
+        # A shard has no picture.
+        result = self.run_program(SCENE, *LIGHT, "--spp", "16", "--shard", "1/2", "--checkpoint", "c", preexec_fn=limit)
+        self.assertEqual(result.returncode, 5, result.stderr)
 
     def test_samples_of_other_pictures_are_refused(self):
         scene = self.folder / "scene.json"

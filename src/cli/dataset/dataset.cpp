@@ -60,8 +60,9 @@ DatasetIdentity identity_of(const Arguments& arguments, const std::vector<Datase
 void report(const Arguments& arguments, std::size_t rendered, std::size_t kept,
             std::uint32_t missing, double seconds) {
   if (arguments.quiet || arguments.progress == Progress::json) return;
-  std::fprintf(stderr, "%s: rendered %zu views in %.1f s",
-               printable(arguments.output.string()).c_str(), rendered, seconds);
+  std::fprintf(stderr, "%s: rendered %zu view%s in %.1f s",
+               printable(arguments.output.string()).c_str(), rendered, rendered == 1 ? "" : "s",
+               seconds);
   if (kept > 0) std::fprintf(stderr, ", kept %zu", kept);
   if (missing > 0) std::fprintf(stderr, "; %u views of other shards are not rendered yet", missing);
   std::fprintf(stderr, "\n");

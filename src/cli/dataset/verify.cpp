@@ -102,8 +102,9 @@ void verify_dataset(const Arguments& arguments) {
   }
   const std::size_t files = recorded.size() + check_manifest(folder, recorded);
   if (arguments.quiet) return;
-  std::fprintf(stderr, "%s: %u views, %zu files, all whole; %zu views rendered again: the same\n",
-               printable(arguments.output.string()).c_str(), count, files, sample.size());
+  std::fprintf(stderr, "%s: %u views, %zu files, all whole; %zu view%s rendered again: the same\n",
+               printable(arguments.output.string()).c_str(), count, files, sample.size(),
+               sample.size() == 1 ? "" : "s");
 }
 
 }  // namespace microtrace::cli

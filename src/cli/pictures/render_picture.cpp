@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <optional>
 #include <string>
 #include <utility>
@@ -94,17 +95,23 @@ void show_passes(RenderOptions& options, DisplayServer& viewer, const std::strin
   };
 }
 
+struct SavedFilm {
+  Film film;
+  std::exception_ptr failure{};  ///< why the samples could not be saved
+};
+
 /// Renders the picture and saves its samples. After a delayed signal, saves the samples of all
 /// complete passes and throws Interruption.
-Film render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize size,
-                     const RenderOptions& options, const Arguments& arguments,
-                     const PictureFiles& files) {
+SavedFilm render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize size,
+                          const RenderOptions& options, const Arguments& arguments,
+                          const PictureFiles& files) {
   const auto draw = [&] {
     if (files.denoiser != nullptr) return files.denoiser->render(scene, camera, size, options);
     return render(scene, camera, size, options);
   };
-  if (files.samples == nullptr || files.samples->checkpoint().empty()) return draw();
+  if (files.samples == nullptr || files.samples->checkpoint().empty()) return {.film = draw()};
   std::optional<Film> film;
+  std::exception_ptr failure;
   {
     const DelayedSignals delay;
     try {
@@ -116,9 +123,16 @@ Film render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize
         throw;
       }
     }
-    files.samples->save();
+    try {
+      files.samples->save();
+    } catch (const Error&) {
+      // The picture can still be written.
+      if (!film || arguments.sampling.shard || DelayedSignals::received() != 0) throw;
+      failure = std::current_exception();
+    }
   }
-  if (film && DelayedSignals::received() == 0) return std::move(*film);
+  if (film && DelayedSignals::received() == 0)
+    return {.film = std::move(*film), .failure = failure};
   if (!arguments.quiet && files.samples->has_samples()) {
     std::fprintf(stderr, "interrupted: the samples are saved in %s\n",
                  printable(files.samples->checkpoint().string()).c_str());
@@ -203,7 +217,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   const std::string shown_name =
       (arguments.sampling.shard || files.picture == "-" ? arguments.scene : files.picture.string());
   if (files.viewer != nullptr) show_passes(options, *files.viewer, shown_name);
-  Film film = render_and_save(prepared, camera, size, options, arguments, files);
+  auto [film, failure] = render_and_save(prepared, camera, size, options, arguments, files);
   if (files.viewer != nullptr) files.viewer->show(shown_name, film);
   times.build += build.count();
   watch.rendered(times);
@@ -234,6 +248,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
                    film.size(), counts.samples_per_pixel, display, watch.seconds());
   }
   watch.report(arguments.statistics, drawn, film.size(), counts, options.threads, *options.memory);
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace microtrace::cli

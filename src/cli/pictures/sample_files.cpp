@@ -5,6 +5,7 @@
 #include <microtrace/version.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -91,10 +92,18 @@ void SampleFiles::keep(const std::vector<Channel>& channels) {
 
 void SampleFiles::save() {
   if (checkpoint_.empty() || !has_samples()) return;
+  refuse_foreign();
+  write();
+}
+
+void SampleFiles::refuse_foreign() const {
   if (const FileState now = state_of(checkpoint_); now != FileState{} && now != known_)
     throw Error(
         ErrorKind::io, checkpoint_.string(),
         "was written by another program meanwhile; give each one a --checkpoint of its own");
+}
+
+void SampleFiles::write() {
   save_checkpoint(samples_, checkpoint_);
   known_ = state_of(checkpoint_);
 }
@@ -102,9 +111,17 @@ void SampleFiles::save() {
 void SampleFiles::save_if_due() {
   const auto now = std::chrono::steady_clock::now();
   if (std::chrono::duration<double>(now - saved_).count() < arguments_.sampling.save_every) return;
-  save();
-  if (arguments_.sampling.is_progressive) {
-    save_image(picture_of(samples_), picture_, arguments_.ppm);
+  if (!checkpoint_.empty()) refuse_foreign();
+  try {
+    if (!checkpoint_.empty()) write();
+    if (arguments_.sampling.is_progressive)
+      save_image(picture_of(samples_), picture_, arguments_.ppm);
+  } catch (const Error& error) {
+    // A disk that is full now may have space at the end. Ending here would lose the samples.
+    if (error.kind() != ErrorKind::io) throw;
+    if (!has_warned_ && !arguments_.quiet)
+      std::fprintf(stderr, "warning: %s; it will be tried again\n", error.what());
+    has_warned_ = true;
   }
   saved_ = std::chrono::steady_clock::now();
 }

@@ -53,6 +53,9 @@ class SampleFiles {
   [[nodiscard]] const std::filesystem::path& checkpoint() const { return checkpoint_; }
 
  private:
+  /// Throws Error (io) if another program has written the checkpoint.
+  void refuse_foreign() const;
+  void write();
   void save_if_due();
 
   const Arguments& arguments_;
@@ -61,6 +64,7 @@ class SampleFiles {
   Checkpoint samples_;
   MemoryAccount memory_;  ///< memory of samples that were read
   std::chrono::steady_clock::time_point saved_;
+  bool has_warned_ = false;  ///< that a file could not be written
 };
 
 }  // namespace microtrace::cli

@@ -113,7 +113,10 @@ std::optional<Diagnostic> picture_warning(const FilmView& view, const Arguments&
   std::string message = "most of the visible scene is black; it is lit by " + lights_text(scene);
   if (!scene.environment && !scene.lights.empty())
     message += " (the studio lights only scenes without lights)";
-  message += "; add light with --env studio";
+  const bool has_studio = !scene.environment && scene.lights.empty();
+  message += has_studio
+                 ? "; add light with --env FILE, or --env 1,1,1 for white light from everywhere"
+                 : "; add light with --env studio";
   if (view.brightest > 0)
     message +=
         ", or brighten the picture with --exposure " + std::to_string(exposure_for(view.brightest));

@@ -235,7 +235,8 @@ std::optional<BrokenRule> broken_placement(const Mesh& mesh) {
   for (int k = 0; k < 4; ++k) {
     const DVec3& column = mesh.placement->column(k);
     if (!is_finite(column.x) || !is_finite(column.y) || !is_finite(column.z))
-      return BrokenRule{"placement", "must be finite"};
+      return BrokenRule{"placement",
+                        "must be finite in float32; the largest number is about 3.4e38"};
   }
   return std::nullopt;
 }

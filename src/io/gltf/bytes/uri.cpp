@@ -108,7 +108,7 @@ RelativePath relative_path(std::string_view uri) {
   // Resolves "." and ".." by name, so that the path checked here is the path that is opened later.
   const std::filesystem::path plain = std::filesystem::path(*path).lexically_normal();
   if (*plain.begin() == "..") {
-    return {*path, "leaves the asset's folder by \"..\"", true};
+    return {*path, "leaves the asset's folder by \"..\"; move the file into it", true};
   }
   return {.path = plain.string()};
 }
