@@ -211,8 +211,9 @@ def test_categories(program, tmp_path):
 def test_a_view_that_fails_does_not_break_the_next_one(tmp_path):
     """Workers of distributed data sets go on with the same object."""
     views = tmp_path / "views.json"
-    missing = str(tmp_path / "missing.exr")
-    views.write_text(json.dumps({"views": [{}, {"environment": {"light": missing}}]}))
+    damaged = tmp_path / "damaged.exr"
+    damaged.write_bytes(b"damaged")
+    views.write_text(json.dumps({"views": [{}, {"environment": {"light": str(damaged)}}]}))
     words = [
         str(SCENES / "gltf" / "knot.glb"),
         f"--views={views}",
