@@ -108,6 +108,10 @@ class Completion(ProgramTest):
         for arguments in ([], ["tcsh"], ["bash", "zsh"]):
             result = self.run_program("completion", *arguments)
             self.assertEqual((result.returncode, result.stdout), (2, b""))
+        for option in ("--help", "-h"):
+            result = self.run_program("completion", option)
+            self.assertEqual((result.returncode, result.stderr), (0, b""))
+            self.assertIn(b"Usage: microtrace completion bash|zsh|fish", result.stdout)
         with open("/dev/full", "w") as full:
             self.assertEqual(subprocess.run([PROGRAM, "completion", "bash"], stdout=full, stderr=subprocess.DEVNULL).returncode, 5)
 

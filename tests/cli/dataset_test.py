@@ -310,6 +310,12 @@ class Dataset(ProgramTest):
             self.assertIn("file name pattern", self.dataset("--views", "orbit:2", "--name", pattern, code=2))
         self.assertIn("share the file name", self.dataset(*self.views({"name": "a"}, {"name": "a"}), "--name", "{name}", code=2))
         self.dataset("--views", "nowhere.json", code=5)
+        self.assertIn("--output", self.dataset("--views", "orbit:1", code=2, output="-"))
+
+    def test_the_current_folder_may_have_been_removed(self):
+        command = f"mkdir gone && cd gone && rmdir ../gone && {PROGRAM} dataset {SCENE} -o {self.folder}/out --views orbit:1 --size 8x6"
+        subprocess.run(["sh", "-c", command], cwd=self.folder, check=True, stderr=subprocess.PIPE)
+        self.assertIn("000000.png", self.contents())
 
 
 if __name__ == "__main__":

@@ -46,6 +46,7 @@ void check_names(const Arguments& arguments, const std::vector<DatasetView>& vie
 
 DatasetIdentity identity_of(const Arguments& arguments, const std::vector<DatasetView>& views,
                             std::uint64_t digest, const std::string& denoiser) {
+  std::error_code ignored;  // the folder may have been removed
   std::string program = "microtrace " MICROTRACE_VERSION_TEXT;
   if (!denoiser.empty()) program += " with " + denoiser;
   return {.program = program,
@@ -53,7 +54,7 @@ DatasetIdentity identity_of(const Arguments& arguments, const std::vector<Datase
           .digest = digest,
           .options = arguments.dataset.identity,
           .views = static_cast<std::uint32_t>(views.size()),
-          .folder = fs::current_path().string(),
+          .folder = fs::current_path(ignored).string(),
           .arguments = arguments.dataset.command_line};
 }
 
@@ -74,6 +75,8 @@ Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
                  const Locate& locate)
     : arguments_(arguments), warnings_(arguments, warnings) {
   if (arguments.scene == "-") refuse_usage("SCENE: a data set needs a file, not standard input");
+  if (arguments.output == "-")
+    refuse_usage("--output: a data set is a folder, which can't be standard output");
   refuse_automatic_exposure(arguments_.display, "dataset");
   const ReadDigest digest;
   views_ = views_of(arguments_);

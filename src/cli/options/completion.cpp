@@ -249,6 +249,11 @@ complete -c microtrace -n '__microtrace_command completion' -f -a ')" +
   return script;
 }
 
+constexpr const char* kHelp = R"(Usage: microtrace completion bash|zsh|fish
+
+Prints a script by which a shell completes commands, options and their values.
+)";
+
 }  // namespace
 
 bool is_completion(int argc, char** argv) {
@@ -263,7 +268,9 @@ std::optional<std::string> completion_script(std::string_view shell) {
 }
 
 int print_completion(int argc, char** argv) {
-  const std::optional<std::string> script = argc == 3 ? completion_script(argv[2]) : std::nullopt;
+  const std::string_view shell = argc == 3 ? argv[2] : "";
+  const std::optional<std::string> script =
+      shell == "--help" || shell == "-h" ? kHelp : completion_script(shell);
   if (!script) {
     std::fputs("error: microtrace completion expects bash, zsh or fish\n", stderr);
     return static_cast<int>(ErrorKind::usage);
