@@ -79,7 +79,7 @@ class PacketWalk {
       return;
     }
     for_each_group(groups, [&](int group) {
-      const float* hits = packet_.best_hi + group * kGroupRays;
+      const float* hits = &packet_.best_hi[group * kGroupRays];
       F limit = load<N>(hits);
       for (int i = N; i < kGroupRays; i += N) limit = greater(limit, load<N>(hits + i));
       limit_[group] = greatest_of<N>(limit);
