@@ -81,10 +81,14 @@ struct Beam {
 
 inline constexpr int kHitBatch = kPacketRays;
 
-/// Hits of triangles, stored in one array per coordinate. Elements without a hit may have any
-/// values.
-struct alignas(64) HitBatch {
-  float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];  ///< vertices
+/// The vertices of triangles that rays hit, stored in one array per coordinate. Elements without a
+/// hit may have any values.
+struct alignas(64) HitTriangles {
+  float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];
+};
+
+/// Hits of triangles.
+struct HitBatch : HitTriangles {
   const float *o[3], *d[3];  ///< origins and directions, within the kernels' limits
   float t[kHitBatch];        ///< resulting parameters
 };
@@ -119,7 +123,7 @@ struct alignas(64) KernelPacket {
   float best_lo[kPacketRays], best_hi[kPacketRays];  ///< as in ClosestSoFar
   std::uint32_t best_id[kPacketRays];
   std::uint32_t best_slot[kPacketRays];  ///< of the nearest hit, if it is a triangle in a block
-  HitBatch placed;                       ///< the hits whose slot is kPlacedSlot
+  HitTriangles placed;                   ///< those of hits whose slot is kPlacedSlot
   float o[3];
   int count;                  ///< number of rays
   const std::uint8_t* order;  ///< the index of the ray at each place, see packet_order.hpp
