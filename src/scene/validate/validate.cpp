@@ -233,10 +233,7 @@ std::optional<BrokenRule> broken_index(const Mesh& mesh) {
 std::optional<BrokenRule> broken_placement(const Mesh& mesh) {
   if (!mesh.segments.empty()) return BrokenRule{"segments", "must be empty if the mesh is placed"};
   for (int k = 0; k < 4; ++k) {
-    const DVec3& column = mesh.placement->column(k);
-    if (!is_finite(column.x) || !is_finite(column.y) || !is_finite(column.z))
-      return BrokenRule{"placement",
-                        "must be finite in float32; the largest number is about 3.4e38"};
+    if (Rule rule = finite("placement", mesh.placement->column(k))) return rule;
   }
   return std::nullopt;
 }
