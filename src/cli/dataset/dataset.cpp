@@ -4,6 +4,7 @@
 #include "cli/dataset/plan.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/pictures/render_picture.hpp"
+#include "cli/report/counted.hpp"
 
 #include <microtrace/dataset.hpp>
 #include <microtrace/read_files.hpp>
@@ -20,6 +21,15 @@
 
 namespace microtrace::cli {
 namespace {
+
+/// Calls f(i) for the first view with each variant and environment.
+template <class F>
+void for_each_look(const std::vector<DatasetView>& views, const F& f) {
+  std::set<std::tuple<std::optional<std::string>, std::optional<std::string>>> looks;
+  for (std::uint32_t i = 0; i < views.size(); ++i) {
+    if (looks.emplace(views[i].variant, views[i].environment).second) f(i);
+  }
+}
 
 namespace fs = std::filesystem;
 
@@ -61,9 +71,8 @@ DatasetIdentity identity_of(const Arguments& arguments, const std::vector<Datase
 void report(const Arguments& arguments, std::size_t rendered, std::size_t kept,
             std::uint32_t missing, double seconds) {
   if (arguments.quiet || arguments.progress == Progress::json) return;
-  std::fprintf(stderr, "%s: rendered %zu view%s in %.1f s",
-               printable(arguments.output.string()).c_str(), rendered, rendered == 1 ? "" : "s",
-               seconds);
+  std::fprintf(stderr, "%s: rendered %s in %.1f s", printable(arguments.output.string()).c_str(),
+               counted(rendered, "view").c_str(), seconds);
   if (kept > 0) std::fprintf(stderr, ", kept %zu", kept);
   if (missing > 0) std::fprintf(stderr, "; %u views of other shards are not rendered yet", missing);
   std::fprintf(stderr, "\n");
@@ -86,12 +95,8 @@ Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
   check_names(arguments_, views_);
   renderer_.emplace(arguments_, warnings_);
   renderer_->load(views_.front());  // the same view in all shards, so that the digests agree
-  std::set<std::tuple<std::optional<std::string>, std::optional<std::string>>> looks;
-  for (std::uint32_t i = 0; i < views_.size(); ++i) {
-    renderer_->check_camera(views_[i], i);
-    if (looks.emplace(views_[i].variant, views_[i].environment).second)
-      renderer_->check_look(views_[i], i);
-  }
+  for (std::uint32_t i = 0; i < views_.size(); ++i) renderer_->check_camera(views_[i], i);
+  for_each_look(views_, [&](std::uint32_t i) { renderer_->check_look(views_[i], i); });
   identity_ = identity_of(arguments_, views_, digest.value(), renderer_->denoiser());
 }
 
@@ -100,10 +105,7 @@ std::vector<std::uint32_t> Dataset::order() const {
 }
 
 void Dataset::read_all() {
-  std::set<std::tuple<std::optional<std::string>, std::optional<std::string>>> read;
-  for (const DatasetView& view : views_) {
-    if (read.emplace(view.variant, view.environment).second) renderer_->load(view);
-  }
+  for_each_look(views_, [&](std::uint32_t i) { renderer_->load(views_[i]); });
 }
 
 std::vector<std::string> Dataset::render(DatasetFolder& folder, std::uint32_t view) {

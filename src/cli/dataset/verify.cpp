@@ -3,6 +3,7 @@
 #include "cli/dataset/plan.hpp"
 #include "cli/dataset/view_renderer.hpp"
 #include "cli/options/parse.hpp"
+#include "cli/report/counted.hpp"
 #include "cli/temporary_folder.hpp"
 
 #include <microtrace/dataset.hpp>
@@ -102,9 +103,9 @@ void verify_dataset(const Arguments& arguments) {
   }
   const std::size_t files = recorded.size() + check_manifest(folder, recorded);
   if (arguments.quiet) return;
-  std::fprintf(stderr, "%s: %u views, %zu files, all whole; %zu view%s rendered again: the same\n",
-               printable(arguments.output.string()).c_str(), count, files, sample.size(),
-               sample.size() == 1 ? "" : "s");
+  std::fprintf(stderr, "%s: %u views, %zu files, all whole; %s rendered again: the same\n",
+               printable(arguments.output.string()).c_str(), count, files,
+               counted(sample.size(), "view").c_str());
 }
 
 }  // namespace microtrace::cli

@@ -11,8 +11,9 @@
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
-#include <fstream>
+#include <fcntl.h>
 #include <string>
+#include <unistd.h>
 #include <utility>
 
 namespace microtrace::cli {
@@ -116,8 +117,9 @@ void ViewRenderer::check_look(const DatasetView& view, std::uint32_t index) cons
   if (!view.environment) return;
   const EnvironmentSource source =
       parse_environment({.option = place + ": the environment", .text = *view.environment});
+  // Not opened, because that would end a pipe.
   const auto* path = std::get_if<fs::path>(&source);
-  if (path != nullptr && !std::ifstream(*path))
+  if (path != nullptr && ::faccessat(AT_FDCWD, path->c_str(), R_OK, AT_EACCESS) != 0)
     throw Error(ErrorKind::io, place, printable(path->string()) + " can't be opened");
 }
 

@@ -1,6 +1,7 @@
 #include "cli/report/scene_summary.hpp"
 
 #include "base/printable.hpp"
+#include "cli/report/counted.hpp"
 #include "cli/report/warnings.hpp"
 
 #include <algorithm>
@@ -13,10 +14,6 @@ namespace {
 
 void print_info(const std::string& text) {
   std::fprintf(stderr, "info: %s\n", printable(text).c_str());
-}
-
-std::string counted(std::size_t number, const char* what) {
-  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
 /// Returns the numbers of primitives of each kind.

@@ -1,6 +1,7 @@
 #include "cli/report/validation_result.hpp"
 
 #include "base/printable.hpp"
+#include "cli/report/counted.hpp"
 #include "cli/report/standard_output.hpp"
 
 #include <cstdio>
@@ -26,16 +27,11 @@ const char* result_of(ErrorKind kind) {
   return "not checked";
 }
 
-std::string count_text(std::size_t number, const char* what) {
-  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
-}
-
 }  // namespace
 
 void print_validation_result(const std::string& scene, std::size_t errors, std::size_t warnings) {
-  std::string result =
-      errors == 0 ? "valid" : "invalid, but drawable: " + count_text(errors, "error");
-  if (warnings != 0) result += ", " + count_text(warnings, "warning");
+  std::string result = errors == 0 ? "valid" : "invalid, but drawable: " + counted(errors, "error");
+  if (warnings != 0) result += ", " + counted(warnings, "warning");
   write_standard_output(printable(scene) + ": " + result + "\n");
 }
 

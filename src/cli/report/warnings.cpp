@@ -89,8 +89,12 @@ void Warnings::report_picture(const std::optional<Diagnostic>& warning) {
   if (warning && !std::exchange(has_reported_picture_, true)) print(*warning);
 }
 
+bool is_lit_by_studio(const Scene& scene) {
+  return !scene.environment && scene.lights.empty();
+}
+
 std::string lights_text(const Scene& scene) {
-  if (!scene.environment && scene.lights.empty()) return "the built-in studio";
+  if (is_lit_by_studio(scene)) return "the built-in studio";
   const std::size_t lights = scene.lights.size();
   const auto dark = static_cast<std::size_t>(std::ranges::count_if(
       scene.lights, [](const NamedLight& light) { return is_dark(light.light); }));
@@ -113,8 +117,7 @@ std::optional<Diagnostic> picture_warning(const FilmView& view, const Arguments&
   std::string message = "most of the visible scene is black; it is lit by " + lights_text(scene);
   if (!scene.environment && !scene.lights.empty())
     message += " (the studio lights only scenes without lights)";
-  const bool has_studio = !scene.environment && scene.lights.empty();
-  message += has_studio
+  message += is_lit_by_studio(scene)
                  ? "; add light with --env FILE, or --env 1,1,1 for white light from everywhere"
                  : "; add light with --env studio";
   if (view.brightest > 0)

@@ -2,6 +2,7 @@
 
 #include "base/printable.hpp"
 #include "cli/options/option_value.hpp"
+#include "cli/report/counted.hpp"
 
 #include <cstdio>
 #include <string>
@@ -19,8 +20,8 @@ void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t sam
   std::string exposure;
   if (display.exposure.value_or(0) != 0)
     exposure = " exposure " + shortest(*display.exposure) + ",";
-  std::fprintf(stderr, "wrote %s: %u x %u pixels, %u sample%s each,%s in %.*f s\n", names.c_str(),
-               size.width, size.height, samples, samples == 1 ? "" : "s", exposure.c_str(),
+  std::fprintf(stderr, "wrote %s: %u x %u pixels, %s each,%s in %.*f s\n", names.c_str(),
+               size.width, size.height, counted(samples, "sample").c_str(), exposure.c_str(),
                seconds < 1 ? 3 : 1, seconds);
 }
 
