@@ -42,8 +42,8 @@ View read_direction(const JsonReader& json) {
 
 std::variant<std::string, Camera, View> read_view_camera(const JsonReader& json) {
   using Kind = io::JsonValue::Kind;
-  if (json.value().kind == Kind::string) return json.name();
-  if (json.value().kind == Kind::object && json.find("azimuth")) return read_direction(json);
+  if (json.value().kind() == Kind::string) return json.name();
+  if (json.value().kind() == Kind::object && json.find("azimuth")) return read_direction(json);
   return io::read_camera(json);
 }
 

@@ -37,6 +37,16 @@ class Bounds(ProgramTest):
         (self.folder / "out.ppm").unlink()
         return json.loads(said)["counted_memory_mib"]
 
+    def measured(self, path, *options):
+        """Returns the exit code, the messages and the peak memory in KiB of one run."""
+        process = subprocess.Popen([PROGRAM, str(path), *SMALL, *options], cwd=self.folder, stderr=subprocess.PIPE,
+                                   env=environment())
+        said = process.stderr.read().decode()
+        process.stderr.close()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        return process.returncode, said, usage.ru_maxrss
+
     def test_memory_limit_values(self):
         scene = SOURCE / "scenes/perspective1.json"
         for text in ("1G", "300M", "400000K", "1000000000"):
@@ -53,18 +63,13 @@ class Bounds(ProgramTest):
         for name, n in cases:
             with self.subTest(name):
                 path = self.write(name, n)
-                process = subprocess.Popen([PROGRAM, str(path), *SMALL, "--memory-limit", f"{limit}M"],
-                                           cwd=self.folder, stderr=subprocess.PIPE, env=environment())
-                said = process.stderr.read().decode()
-                process.stderr.close()
-                _, status, usage = os.wait4(process.pid, 0)
-                process.returncode = os.waitstatus_to_exitcode(status)
-                self.assertEqual(process.returncode, 6, said)
+                code, said, peak = self.measured(path, "--memory-limit", f"{limit}M")
+                self.assertEqual(code, 6, said)
                 self.assertIn(path.name, said)
                 self.assertIn("--memory-limit", said)
                 # The margin covers the program itself, but not the additional memory of sanitizers.
                 if "ASAN_OPTIONS" not in os.environ:
-                    self.assertLess(usage.ru_maxrss / 1024, 3 * limit + 64)
+                    self.assertLess(peak / 1024, 3 * limit + 64)
                 self.assertFalse((self.folder / "out.ppm").exists())
 
     def test_pictures_count_against_the_limit(self):
@@ -72,6 +77,15 @@ class Bounds(ProgramTest):
         self.draw(scene, "--size", "4000x4000", "--memory-limit", "100M", code=6)
         self.draw(scene, "--integrator", "path", "--spp", "1", "--size", "2000x2000", "--time-limit", "9",
                   "--memory-limit", "300M", code=6)
+
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "sanitizers need memory of their own")
+    def test_many_nodes_take_little_memory(self):
+        peaks = []
+        for n in (10_000, 50_000):
+            code, said, peak = self.measured(self.write("transformed_nodes", n), "--integrator", "flat", "--size", "4x4")
+            self.assertEqual(code, 0, said)
+            peaks.append(peak)
+        self.assertLess((peaks[1] - peaks[0]) / 40_000, 2.5, peaks)
 
     def test_textures_of_one_image_share_its_mip_maps(self):
         one, many = (self.counted(self.write("textures", n), "--integrator", "path", "--spp", "1") for n in (1, 128))

@@ -70,6 +70,12 @@ def wide_nodes(n):
     return asset(nodes=[{"mesh": 0}] * n, scenes=[{"nodes": list(range(n))}])
 
 
+def transformed_nodes(n):
+    """Returns an asset of named nodes with all properties, as exporters write them."""
+    place = {"translation": [0.25, 1.5, -3.75], "rotation": [0.5, -0.5, 0.5, 0.5], "scale": [0.75, 1.25, 0.875]}
+    return asset(nodes=[{"mesh": 0, "name": f"part {i}", **place} for i in range(n)], scenes=[{"nodes": list(range(n))}])
+
+
 def children_of_one_node(n):
     return asset(nodes=[{"children": list(range(1, n + 1))}] + [{"mesh": 0}] * n)
 
@@ -464,8 +470,8 @@ def scene_cameras(n):
 
 
 GLTF = {f.__name__: f for f in (
-    nested_nodes, nested_named_nodes, wide_nodes, children_of_one_node, equal_names, names_that_are_taken, scenes,
-    hidden_nodes, meshes, primitives, materials, coated_materials, textures, images, samplers, cameras, lights, skins,
+    nested_nodes, nested_named_nodes, wide_nodes, transformed_nodes, children_of_one_node, equal_names,
+    names_that_are_taken, scenes, hidden_nodes, meshes, primitives, materials, coated_materials, textures, images, samplers, cameras, lights, skins,
     joints, skinned_nodes_of_many_joints, morph_targets, nodes_with_morph_targets, animations, channels,
     animation_samplers, keyframes, variants, variant_mappings, accessors, buffer_views, buffers, attributes,
     extensions_used, equal_extensions_used, undeclared_extensions, instance_attributes,

@@ -2,11 +2,12 @@
 /// A JSON text with the position of every value. Errors can therefore state file, line, column and
 /// pointer.
 
+#include "io/json/value.hpp"
+
 #include <microtrace/error.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,43 +18,7 @@ namespace microtrace::io {
 inline constexpr std::size_t kMaxJsonDepth = 256;                  ///< maximum nesting depth
 inline constexpr std::size_t kMaxJsonSize = std::size_t{1} << 30;  ///< maximum size in bytes
 inline constexpr std::size_t kMaxJsonValues = std::size_t{1}
-                                              << 24;  ///< maximum total number of values
-
-struct JsonMember;
-
-struct JsonValue {
-  enum class Kind { null, boolean, number, string, array, object };
-
-  Kind kind = Kind::null;
-  bool boolean = false;
-  bool is_integer = false;  ///< true if written without fraction or exponent, and within +-2^53
-  double number = 0;        ///< always finite
-  std::string string;
-  std::vector<JsonValue> items;     ///< elements of an array
-  std::vector<JsonMember> members;  ///< members of an object, in file order, with unique keys
-  std::size_t offset = 0;           ///< byte offset of the value
-  std::size_t key_offset = 0;       ///< byte offset of the value's key, if it is a member
-
-  /// The member with this name, or null.
-  [[nodiscard]] const JsonValue* find(std::string_view key) const;
-  [[nodiscard]] JsonValue* find(std::string_view key);
-
-  /// Rebuilds the index that find() uses. Must be called after members were added or removed.
-  void index_members();
-
- private:
-  /// Returns the index of the member with this name. Equal to the number of members if it is
-  /// absent.
-  [[nodiscard]] std::size_t position(std::string_view key) const;
-
-  /// The members' indices sorted by key. Null if there are few members.
-  std::shared_ptr<const std::vector<std::uint32_t>> by_key_{};
-};
-
-struct JsonMember {
-  std::string key;
-  JsonValue value;
-};
+                                              << 26;  ///< maximum total number of values
 
 /// The treatment of duplicate keys in an object.
 enum class RepeatedKeys { are_refused, last_counts };

@@ -8,43 +8,10 @@
 
 namespace microtrace::io {
 
-std::size_t JsonValue::position(std::string_view key) const {
-  if (by_key_) {
-    const auto found = std::ranges::lower_bound(
-        *by_key_, key, {}, [this](std::uint32_t i) { return std::string_view(members[i].key); });
-    const bool is_there = found != by_key_->end() && members[*found].key == key;
-    return is_there ? *found : members.size();
-  }
-  const auto found = std::find_if(members.begin(), members.end(),
-                                  [key](const auto& member) { return member.key == key; });
-  return static_cast<std::size_t>(found - members.begin());
-}
-
-const JsonValue* JsonValue::find(std::string_view key) const {
-  const std::size_t i = position(key);
-  return i < members.size() ? &members[i].value : nullptr;
-}
-
-JsonValue* JsonValue::find(std::string_view key) {
-  const std::size_t i = position(key);
-  return i < members.size() ? &members[i].value : nullptr;
-}
-
-void JsonValue::index_members() {
-  constexpr std::size_t kFew = 16;  // for at most this many members, linear search is faster
-  by_key_.reset();
-  if (members.size() <= kFew) return;
-  std::vector<std::uint32_t> order(members.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, {},
-                    [this](std::uint32_t i) { return std::string_view(members[i].key); });
-  by_key_ = std::make_shared<const std::vector<std::uint32_t>>(std::move(order));
-}
-
-RepeatedMembers repeated_members(const JsonValue& object) {
+RepeatedMembers repeated_members(std::span<const JsonMember> members) {
   std::vector<std::pair<std::string_view, std::size_t>> keys;
-  keys.reserve(object.members.size());
-  for (const auto& [name, value] : object.members) keys.emplace_back(name, value.key_offset);
+  keys.reserve(members.size());
+  for (const auto& [name, value] : members) keys.emplace_back(name, value.key_offset);
   std::sort(keys.begin(), keys.end());
   RepeatedMembers result;
   for (std::size_t i = 1; i < keys.size(); ++i) {

@@ -1,7 +1,8 @@
 #pragma once
-#include "io/json/document.hpp"
+#include "io/json/value.hpp"
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,6 @@ struct RepeatedMembers {
 };
 
 /// Finds duplicate keys. The `key_offset` of each member must be set.
-[[nodiscard]] RepeatedMembers repeated_members(const JsonValue& object);
+[[nodiscard]] RepeatedMembers repeated_members(std::span<const JsonMember> members);
 
 }  // namespace microtrace::io

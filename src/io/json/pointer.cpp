@@ -24,12 +24,11 @@ std::optional<std::string> unescaped(std::string_view token) {
 /// Finds the value that a pointer names. Value is JsonValue or const JsonValue.
 template <typename Value>
 Value* step(Value& value, const std::string& token) {
-  if (value.kind != JsonValue::Kind::array) return value.find(token);
+  if (value.kind() != JsonValue::Kind::array) return value.find(token);
   std::size_t index = 0;
   const char* end = token.data() + token.size();
   const auto [rest, error] = std::from_chars(token.data(), end, index);
-  const bool is_index = error == std::errc() && rest == end && index < value.items.size();
-  return is_index ? &value.items[index] : nullptr;
+  return error == std::errc() && rest == end ? value.find(index) : nullptr;
 }
 
 template <typename Value>

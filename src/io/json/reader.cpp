@@ -46,7 +46,7 @@ void JsonReader::require(const std::optional<BrokenRule>& rule) const {
   if (!rule) return;
   if (const auto field = find(rule->field)) {
     const JsonValue& found = field->value();
-    const bool underflows = found.number != 0 && static_cast<float>(found.number) == 0;
+    const bool underflows = found.number() != 0 && static_cast<float>(found.number()) == 0;
     std::string message = rule->message;
     if (underflows) message += " once rounded to float32";
     field->fail(std::move(message), rule->kind);
@@ -57,13 +57,13 @@ void JsonReader::require(const std::optional<BrokenRule>& rule) const {
 }
 
 void JsonReader::require_kind(Kind kind) const {
-  if (value_->kind == kind) return;
+  if (value_->kind() == kind) return;
   std::string message = "must be ";
   message.append(name_of(kind)).append(", is ");
-  if (value_->kind == Kind::boolean) {
-    fail(message.append(value_->boolean ? "true" : "false"));
+  if (value_->kind() == Kind::boolean) {
+    fail(message.append(value_->boolean() ? "true" : "false"));
   }
-  fail(message.append(name_of(value_->kind)));
+  fail(message.append(name_of(value_->kind())));
 }
 
 void JsonReader::require_object() const {
@@ -72,7 +72,7 @@ void JsonReader::require_object() const {
 
 void JsonReader::require_object(std::initializer_list<std::string_view> known) const {
   require_object();
-  for (const auto& [key, value] : value_->members) {
+  for (const auto& [key, value] : value_->members()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     std::string message = "unknown key ";
     message.append(in_quotes(key)).append(suggestion(key, {known.begin(), known.size()}));
@@ -96,8 +96,8 @@ JsonReader JsonReader::member(std::string_view key) const {
 std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
   require_object();
   std::vector<std::pair<std::string, JsonReader>> out;
-  out.reserve(value_->members.size());
-  for (const auto& [key, value] : value_->members) {
+  out.reserve(value_->members().size());
+  for (const auto& [key, value] : value_->members()) {
     out.emplace_back(key, JsonReader(*document_, value, child(pointer_, key)));
   }
   return out;
@@ -105,7 +105,7 @@ std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
 
 std::vector<JsonReader> JsonReader::items(std::optional<std::size_t> count) const {
   require_kind(Kind::array);
-  const std::size_t size = value_->items.size();
+  const std::size_t size = value_->items().size();
   if (count && size != *count) {
     std::string message = "must have ";
     message.append(std::to_string(*count)).append(" items, has ").append(std::to_string(size));
@@ -114,14 +114,14 @@ std::vector<JsonReader> JsonReader::items(std::optional<std::size_t> count) cons
   std::vector<JsonReader> out;
   out.reserve(size);
   for (std::size_t i = 0; i < size; ++i) {
-    out.push_back(JsonReader(*document_, value_->items[i], child(pointer_, i)));
+    out.push_back(JsonReader(*document_, value_->items()[i], child(pointer_, i)));
   }
   return out;
 }
 
 std::string JsonReader::string() const {
   require_kind(Kind::string);
-  return value_->string;
+  return value_->string();
 }
 
 std::string JsonReader::name() const {
@@ -132,14 +132,14 @@ std::string JsonReader::name() const {
 
 double JsonReader::number() const {
   require_kind(Kind::number);
-  if (std::abs(value_->number) < kFloat32Bound) return value_->number;
+  if (std::abs(value_->number()) < kFloat32Bound) return value_->number();
   std::string message = "must be finite in float32, where the largest number is about 3.4e38, is ";
-  fail(message.append(decimal(value_->number)));
+  fail(message.append(decimal(value_->number())));
 }
 
 std::uint64_t JsonReader::count() const {
   require_kind(Kind::number);
-  const double number = value_->number;
+  const double number = value_->number();
   if (number >= 0 && number <= 0x1p53 && number == std::floor(number)) {
     return static_cast<std::uint64_t>(number);
   }

@@ -43,27 +43,27 @@ void append_json(std::string& text, std::string_view string) {
 
 void append_json(std::string& text, const JsonValue& value,
                  std::span<const std::string_view> left_out) {
-  switch (value.kind) {
+  switch (value.kind()) {
     case JsonValue::Kind::null:
       text += "null";
       return;
     case JsonValue::Kind::boolean:
-      text += value.boolean ? "true" : "false";
+      text += value.boolean() ? "true" : "false";
       return;
     case JsonValue::Kind::number:
-      return append_json(text, value.number);
+      return append_json(text, value.number());
     case JsonValue::Kind::string:
-      return append_json(text, value.string);
+      return append_json(text, value.string());
     case JsonValue::Kind::array:
       text += '[';
-      for (const JsonValue& item : value.items) {
+      for (const JsonValue& item : value.items()) {
         append_json(text, item, left_out);
         text += ',';
       }
       return close(text, ']');
     case JsonValue::Kind::object:
       text += '{';
-      for (const JsonMember& member : value.members) {
+      for (const JsonMember& member : value.members()) {
         if (std::ranges::find(left_out, member.key) != left_out.end()) continue;
         append_json(text, member.key);
         text += ':';

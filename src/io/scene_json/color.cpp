@@ -28,8 +28,8 @@ Colors read_colors(const JsonReader& json) {
 }
 
 Vec3 read_color(const JsonReader& json, const Colors& colors, double most) {
-  if (json.value().kind == JsonValue::Kind::array) return read_triple(json, most);
-  if (json.value().kind != JsonValue::Kind::string) {
+  if (json.value().kind() == JsonValue::Kind::array) return read_triple(json, most);
+  if (json.value().kind() != JsonValue::Kind::string) {
     json.fail("must be three numbers from 0 to " + decimal(most) + " or a name from /colors");
   }
   const auto found = colors.find(json.string());
@@ -62,7 +62,7 @@ float read_positive(const JsonReader& json) {
 }
 
 bool read_boolean(const JsonReader& json) {
-  if (json.value().kind == JsonValue::Kind::boolean) return json.value().boolean;
+  if (json.value().kind() == JsonValue::Kind::boolean) return json.value().boolean();
   json.fail("must be true or false");
 }
 

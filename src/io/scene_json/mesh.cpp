@@ -41,8 +41,8 @@ DMat4 read_rotation(const JsonReader& json) {
 }
 
 DVec3 read_scale(const JsonReader& json) {
-  if (json.value().kind == JsonValue::Kind::array) return json.vector();
-  if (json.value().kind == JsonValue::Kind::number) return DVec3(json.number());
+  if (json.value().kind() == JsonValue::Kind::array) return json.vector();
+  if (json.value().kind() == JsonValue::Kind::number) return DVec3(json.number());
   json.fail("must be a number or an array of three");
 }
 
@@ -76,7 +76,7 @@ std::string read_mesh_file(const JsonReader& json, const std::filesystem::path& 
 DMat4 read_transform(const JsonReader& json) {
   json.require_object({"translation", "rotation", "scale", "matrix"});
   if (const auto matrix = json.find("matrix")) {
-    if (json.value().members.size() == 1) return read_matrix(*matrix);
+    if (json.value().members().size() == 1) return read_matrix(*matrix);
     matrix->fail("must not be combined with translation, rotation or scale");
   }
   DMat4 out(1);
@@ -105,7 +105,7 @@ MeshFiles::~MeshFiles() = default;
 
 void MeshFiles::expect(const JsonReader& json) {
   // If the member "file" is invalid, read() reports it.
-  if (const JsonValue* file = json.value().find("file")) ++uses_[file->string];
+  if (const JsonValue* file = json.value().find("file")) ++uses_[file->string()];
 }
 
 std::unique_ptr<MeshFiles::File> MeshFiles::open(const JsonReader& file,
@@ -123,14 +123,14 @@ LoadedScene MeshFiles::read(const JsonReader& json) {
   const std::filesystem::path path = folder_ / read_relative_path(file);
   const auto transform = json.find("transform");
   const DMat4 world_from_asset = transform ? read_transform(*transform) : DMat4(1);
-  std::unique_ptr<File>& opened = files_[file.value().string];
-  std::size_t& uses = uses_[file.value().string];
+  std::unique_ptr<File>& opened = files_[file.value().string()];
+  std::size_t& uses = uses_[file.value().string()];
   if (!opened) {
     opened = open(file, path);
     opened->uses = uses;
   }
   LoadedScene result = opened->reader->placed(options_.time, world_from_asset, opened->uses);
-  if (--uses == 0) files_.erase(file.value().string);
+  if (--uses == 0) files_.erase(file.value().string());
   return result;
 }
 

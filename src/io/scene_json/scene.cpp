@@ -67,7 +67,8 @@ void read_lights(const JsonReader& json, const Colors& colors, Scene& scene) {
 bool is_mesh(const JsonReader& json) {
   json.require_object();
   const auto type = json.find("type");
-  return type && type->value().kind == JsonValue::Kind::string && type->value().string == "mesh";
+  return type && type->value().kind() == JsonValue::Kind::string &&
+         type->value().string() == "mesh";
 }
 
 /// The scene's named materials, and one material for each color that objects use.
@@ -142,7 +143,7 @@ void read_objects(const JsonReader& json, Palette& palette, const std::filesyste
   const std::vector<JsonReader> items = read_filled_array(json);
   MeshFiles files(folder, options);
   for (const JsonReader& item : items) {
-    const bool is_object = item.value().kind == JsonValue::Kind::object;
+    const bool is_object = item.value().kind() == JsonValue::Kind::object;
     if (is_object && is_mesh(item)) files.expect(item);
   }
   for (const JsonReader& item : items) {

@@ -179,12 +179,12 @@ TEST(GltfAnimationPointer, RepairedCamerasKeepTheirOtherProperties) {
   const io::JsonDocument document(text, "test.gltf");
   io::JsonValue part = io::gltf::animated_part(document.root());
   io::gltf::repair_properties(part);
-  const io::JsonValue& camera = *part.find("cameras")->items.at(0).find("perspective");
+  const io::JsonValue& camera = *part.find("cameras")->items().at(0).find("perspective");
   EXPECT_THAT(camera.find("zfar"), IsNull());
   ASSERT_THAT(camera.find("znear"), NotNull());
-  EXPECT_EQ(camera.find("znear")->number, 2);
+  EXPECT_EQ(camera.find("znear")->number(), 2);
   ASSERT_THAT(camera.find("yfov"), NotNull());
-  EXPECT_EQ(camera.find("yfov")->number, 3);
+  EXPECT_EQ(camera.find("yfov")->number(), 3);
 }
 
 TEST(GltfAnimationPointer, FieldOfViewStaysBelowPi) {

@@ -16,7 +16,7 @@ std::string list_of_animations(const Asset& asset) {
   for (std::size_t i = 0; i < std::min(animations.size(), kShown); ++i) {
     result += (i == 0 ? " " : ", ") + std::to_string(i);
     const JsonValue* name = animations[i].find("name");
-    result += name != nullptr ? " (" + printable(name->string.substr(0, 64)) + ")" : " (unnamed)";
+    result += name != nullptr ? " (" + printable(name->string().substr(0, 64)) + ")" : " (unnamed)";
   }
   if (animations.size() > kShown) result += ", ... " + std::to_string(animations.size() - 1);
   return result;
@@ -30,7 +30,7 @@ std::vector<std::size_t> choose_animations(const Asset& asset, const std::string
     return animations.empty() ? std::vector<std::size_t>{} : std::vector<std::size_t>{0};
   for (std::size_t i = 0; i < animations.size(); ++i) {
     const JsonValue* name = animations[i].find("name");
-    if (name != nullptr && name->string == wanted) return {i};
+    if (name != nullptr && name->string() == wanted) return {i};
   }
   if (const auto index = index_in(wanted); index && *index < animations.size()) return {*index};
   std::vector<std::size_t> all;

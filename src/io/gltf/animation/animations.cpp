@@ -52,7 +52,7 @@ class AnimationPlayer::Reader {
     if (!width) return std::nullopt;
     const Element number = channel.member("sampler");
     const Element sampler =
-        animation.member("samplers").item(static_cast<std::size_t>(number.value->number));
+        animation.member("samplers").item(static_cast<std::size_t>(number.value->number()));
     if (!has_data(sampler)) {
       asset_.warn(channel, "needs a buffer that has no data; it is ignored");
       return std::nullopt;
@@ -84,21 +84,21 @@ class AnimationPlayer::Reader {
   /// property of a node, such as /nodes/0/rotation, or of another object.
   std::optional<Target> target_of(const Element& at) {
     const Element name = at.member("path");
-    if (name.value->string == "pointer") {
+    if (name.value->string() == "pointer") {
       const std::optional<Element> pointer = extension(at, "KHR_animation_pointer");
       return pointer ? pointed_at(pointer->member("pointer")) : std::nullopt;
     }
     const JsonValue* node = at.value->find("node");
     if (node == nullptr) return std::nullopt;
-    const std::optional<Path> path = path_of(name.value->string);
+    const std::optional<Path> path = path_of(name.value->string());
     if (!path) warn_of(name);
     if (!path) return std::nullopt;
-    return Target{at.member("node"), static_cast<std::size_t>(node->number), *path};
+    return Target{at.member("node"), static_cast<std::size_t>(node->number()), *path};
   }
 
   std::optional<Target> pointed_at(const Element& pointer) {
     constexpr std::string_view kNodes = "/nodes/";
-    const std::string_view text = pointer.value->string;
+    const std::string_view text = pointer.value->string();
     const std::size_t slash = text.rfind('/');
     if (text.starts_with(kNodes) && slash >= kNodes.size()) {
       const auto node = index_in(text.substr(kNodes.size(), slash - kNodes.size()));
@@ -115,8 +115,8 @@ class AnimationPlayer::Reader {
   }
 
   void warn_of(const Element& at) {
-    asset_.warn(at,
-                "animation of " + in_quotes(at.value->string) + " is not supported; it is ignored");
+    asset_.warn(
+        at, "animation of " + in_quotes(at.value->string()) + " is not supported; it is ignored");
   }
 
   static std::optional<Path> path_of(std::string_view text) {
@@ -161,8 +161,8 @@ class AnimationPlayer::Reader {
     const Model::Accessor& in = accessor(sampler.member("input"));
     const Model::Accessor& out = accessor(sampler.member("output"));
     const JsonValue* kind = sampler.value->find("interpolation");
-    const bool is_step = kind != nullptr && kind->string == "STEP";
-    const std::size_t values = kind != nullptr && kind->string == "CUBICSPLINE" ? 3 : 1;
+    const bool is_step = kind != nullptr && kind->string() == "STEP";
+    const std::size_t values = kind != nullptr && kind->string() == "CUBICSPLINE" ? 3 : 1;
     if (in.type != ElementType::scalar || in.component_type != kFloat32 || is_matrix(out.type) ||
         component_count(out.type) != target.property.width || out.count != in.count * values) {
       return false;
@@ -177,7 +177,7 @@ class AnimationPlayer::Reader {
   }
 
   static std::size_t accessor_of(const Element& at) {
-    return static_cast<std::size_t>(at.value->number);
+    return static_cast<std::size_t>(at.value->number());
   }
 
   const Model::Accessor& accessor(const Element& at) const {
@@ -193,8 +193,8 @@ class AnimationPlayer::Reader {
                    .values = numbers(output)};
     std::size_t values_of_key = 1;
     if (const JsonValue* kind = sampler.value->find("interpolation")) {
-      if (kind->string == "STEP") keys.interpolation = Interpolation::step;
-      if (kind->string == "CUBICSPLINE") {
+      if (kind->string() == "STEP") keys.interpolation = Interpolation::step;
+      if (kind->string() == "CUBICSPLINE") {
         keys.interpolation = Interpolation::cubic_spline;
         values_of_key = 3;
       }
@@ -278,7 +278,7 @@ AnimationPlayer::AnimationPlayer(Asset& asset, const Model& model, AccessorReade
   for (const std::size_t index : animations) {
     const Element animation = asset.element("animations", index);
     const Element channels = animation.member("channels");
-    for (std::size_t i = 0; i < channels.value->items.size(); ++i) {
+    for (std::size_t i = 0; i < channels.value->items().size(); ++i) {
       std::optional<Channel> channel = channel_reader.read(animation, channels.item(i));
       if (!channel) continue;
       if (channel->path == Path::property && !properties_) {

@@ -20,10 +20,10 @@ bool animate_materials(const Asset& asset, const std::vector<std::size_t>& anima
   const auto points_to_one = [](const JsonValue& channel) {
     const JsonValue* pointer = extension(*channel.find("target"), "KHR_animation_pointer");
     const JsonValue* text = pointer != nullptr ? pointer->find("pointer") : nullptr;
-    return text != nullptr && text->string.starts_with("/materials/");
+    return text != nullptr && text->string().starts_with("/materials/");
   };
   return std::ranges::any_of(animations, [&](std::size_t index) {
-    return std::ranges::any_of(asset.array("animations")[index].find("channels")->items,
+    return std::ranges::any_of(asset.array("animations")[index].find("channels")->items(),
                                points_to_one);
   });
 }

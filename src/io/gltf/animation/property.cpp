@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 3> kAnimatedMembers = {"materials", "came
 
 const JsonValue* item_of(const JsonValue& array, std::string_view token) {
   const std::optional<std::size_t> index = index_in(token);
-  return index && *index < array.items.size() ? &array.items[*index] : nullptr;
+  return index && *index < array.items().size() ? &array.items()[*index] : nullptr;
 }
 
 /// Follows a JSON pointer through the asset and, at the same time, through the schema's rules.
@@ -73,15 +73,13 @@ class Walk {
 
 JsonValue& make_member(JsonValue& object, const std::string& key) {
   if (JsonValue* value = object.find(key)) return *value;
-  object.members.emplace_back(JsonMember{.key = key, .value = {}});
-  object.index_members();
-  return object.members.back().value;
+  return object.add(key);
 }
 
 /// Returns the items of an array. Empty if the object or the array is absent.
 std::span<JsonValue> items(JsonValue* object, std::string_view key) {
   JsonValue* array = object != nullptr ? object->find(key) : nullptr;
-  return array != nullptr ? std::span(array->items) : std::span<JsonValue>();
+  return array != nullptr ? std::span(array->edit_items()) : std::span<JsonValue>();
 }
 
 JsonValue* extension_of(JsonValue& object, std::string_view name) {
@@ -91,23 +89,22 @@ JsonValue* extension_of(JsonValue& object, std::string_view name) {
 
 void repair_perspective(JsonValue& camera) {
   JsonValue* yfov = camera.find("yfov");
-  yfov->number = std::clamp<double>(yfov->number, std::numeric_limits<float>::min(),
-                                    std::nextafter(std::numbers::pi, 0));
+  yfov->set(JsonValue(std::clamp<double>(yfov->number(), std::numeric_limits<float>::min(),
+                                         std::nextafter(std::numbers::pi, 0))));
   const JsonValue* far = camera.find("zfar");
-  if (far == nullptr || far->number > camera.find("znear")->number) return;
-  std::erase_if(camera.members, [](const JsonMember& member) { return member.key == "zfar"; });
-  camera.index_members();
+  if (far == nullptr || far->number() > camera.find("znear")->number()) return;
+  camera.remove_members([](std::string_view key) { return key == "zfar"; });
 }
 
 void repair_orthographic(JsonValue& camera) {
   constexpr double kLeast = 1e-6;
   for (const char* key : {"xmag", "ymag"}) {
-    double& magnitude = camera.find(key)->number;
-    if (std::abs(magnitude) < kLeast) magnitude = kLeast;
+    JsonValue& magnitude = *camera.find(key);
+    if (std::abs(magnitude.number()) < kLeast) magnitude.set(JsonValue(kLeast));
   }
-  const double near = camera.find("znear")->number;
-  double& far = camera.find("zfar")->number;
-  if (far <= near) far = near + std::max(kLeast, kLeast * near);
+  const double near = camera.find("znear")->number();
+  JsonValue& far = *camera.find("zfar");
+  if (far.number() <= near) far.set(JsonValue(near + std::max(kLeast, kLeast * near)));
 }
 
 void repair_cone(JsonValue& light) {
@@ -115,8 +112,8 @@ void repair_cone(JsonValue& light) {
   JsonValue* inner = spot != nullptr ? spot->find("innerConeAngle") : nullptr;
   if (inner == nullptr) return;
   const JsonValue* outer = spot->find("outerConeAngle");
-  const double angle = outer != nullptr ? outer->number : std::numbers::pi / 4;
-  inner->number = std::min(inner->number, std::nextafter(angle, 0));
+  const double angle = outer != nullptr ? outer->number() : std::numbers::pi / 4;
+  inner->set(JsonValue(std::min(inner->number(), std::nextafter(angle, 0))));
 }
 
 }  // namespace
@@ -145,31 +142,23 @@ std::optional<AnimatedProperty> find_property(const Asset& asset, std::string_vi
 }
 
 JsonValue animated_part(const JsonValue& root) {
-  JsonValue part;
-  part.kind = JsonValue::Kind::object;
-  for (const JsonMember& member : root.members) {
-    if (std::ranges::find(kAnimatedMembers, member.key) != kAnimatedMembers.end()) {
-      part.members.push_back(member);
-    }
-  }
-  return part;
+  std::vector<JsonMember> animated;
+  std::ranges::copy_if(root.members(), std::back_inserter(animated), [](const JsonMember& member) {
+    return std::ranges::find(kAnimatedMembers, member.key) != kAnimatedMembers.end();
+  });
+  return JsonValue(std::move(animated));
 }
 
 void set_property(JsonValue& part, const AnimatedProperty& property,
                   const std::vector<double>& value) {
   JsonValue* at = &part;
   for (const std::string& token : std::span(property.path).first(property.path.size() - 1)) {
-    at = at->kind == JsonValue::Kind::array ? &at->items[index_in(token).value()] : at->find(token);
+    at = at->kind() == JsonValue::Kind::array ? at->find(index_in(token).value()) : at->find(token);
   }
-  const auto write = [&property](JsonValue& target, double x) {
-    target.kind = JsonValue::Kind::number;
-    target.number = std::clamp(x, property.min, property.max);
-  };
+  std::vector<JsonValue> numbers;
+  for (const double x : value) numbers.emplace_back(std::clamp(x, property.min, property.max));
   JsonValue& target = make_member(*at, property.path.back());
-  if (!property.is_array) return write(target, value[0]);
-  target.kind = JsonValue::Kind::array;
-  target.items.resize(value.size());
-  for (std::size_t i = 0; i < value.size(); ++i) write(target.items[i], value[i]);
+  target.set(property.is_array ? JsonValue(std::move(numbers)) : std::move(numbers[0]));
 }
 
 void repair_properties(JsonValue& part) {
@@ -184,7 +173,7 @@ void repair_properties(JsonValue& part) {
     JsonValue* refraction = extension_of(material, "KHR_materials_ior");
     JsonValue* ior = refraction != nullptr ? refraction->find("ior") : nullptr;
     // In this extension, an index of refraction of 0 means infinity.
-    if (ior != nullptr && ior->number > 0 && ior->number < 1) ior->number = 1;
+    if (ior != nullptr && ior->number() > 0 && ior->number() < 1) ior->set(JsonValue(1.0));
   }
 }
 

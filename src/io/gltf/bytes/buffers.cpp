@@ -9,7 +9,7 @@ namespace microtrace::io::gltf {
 namespace {
 
 std::string decode(Asset& asset, const Element& uri) {
-  const std::optional<DataUri> data = split_data_uri(uri.value->string);
+  const std::optional<DataUri> data = split_data_uri(uri.value->string());
   if (data && data->media_type != "application/octet-stream" &&
       data->media_type != "application/gltf-buffer") {
     asset.tolerate(uri, "has a media type that is not for buffers; use application/octet-stream");
@@ -29,7 +29,7 @@ bool is_fallback(const Element& buffer) {
   const auto compression = extension(buffer, "EXT_meshopt_compression");
   if (!compression) return false;
   const JsonValue* fallback = compression->value->find("fallback");
-  return fallback != nullptr && fallback->boolean;
+  return fallback != nullptr && fallback->boolean();
 }
 
 /// Warns about a buffer without data. This is not an error, because an extension may supply the
@@ -45,7 +45,7 @@ void missing(Asset& asset, const Element& buffer, bool is_bin) {
 void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
   double total = 0;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    total += buffers[i].find("byteLength")->number;
+    total += buffers[i].find("byteLength")->number();
     if (total > static_cast<double>(kMaxBufferBytes)) {
       asset.fail(asset.element("buffers", i).member("byteLength"),
                  "brings the buffers to more than 4 GiB, the limit", ErrorKind::limit);
@@ -56,7 +56,7 @@ void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
 /// Cuts or extends the data to the stated length. Some exporters count the padding to a multiple of
 /// 4 bytes but don't write it.
 void set_length(Asset& asset, const Element& at, Buffer& buffer) {
-  const auto length = static_cast<std::size_t>(at.value->number);
+  const auto length = static_cast<std::size_t>(at.value->number());
   const std::size_t size = buffer.bytes->size();
   if (size < length) {
     const std::string problem = "states " + std::to_string(length) +
@@ -90,7 +90,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
       if (buffers[i].find("uri") != nullptr) note_unread_resource(uri, folders);
       continue;
     } else if (buffers[i].find("uri") != nullptr) {
-      buffer.storage = is_data_uri(uri.value->string)
+      buffer.storage = is_data_uri(uri.value->string())
                            ? decode(asset, uri)
                            : read_resource(asset, uri, folders, "buffer", kMaxBufferBytes);
       buffer.bytes = buffer.storage;

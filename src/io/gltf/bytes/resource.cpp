@@ -20,7 +20,7 @@ struct ResourcePath {
 };
 
 ResourcePath resource_path(const Element& uri, const ResourceFolders& folders) {
-  RelativePath relative = relative_path(uri.value->string);
+  RelativePath relative = relative_path(uri.value->string());
   std::filesystem::path path = folders.own / relative.path;
   const bool is_allowed =
       relative.refusal.empty() || (relative.leads_out && lies_within(folders.allowed, path));
@@ -38,7 +38,7 @@ std::optional<std::string> decoded(const DataUri& data) {
 }  // namespace
 
 std::string decode_data_uri(const Asset& asset, const Element& uri) {
-  const std::optional<DataUri> data = split_data_uri(uri.value->string);
+  const std::optional<DataUri> data = split_data_uri(uri.value->string());
   if (!data) asset.fail(uri, "is not a data URI of the form data:TYPE;base64,DATA");
   take_memory(data->data.size() / 4 * 3, "the data of data URIs");
   std::optional<std::string> bytes = decoded(*data);
@@ -53,7 +53,7 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
                           const char* what, std::size_t max_bytes) {
   const auto [relative, path, is_allowed] = resource_path(uri, folders);
   if (!is_allowed) {
-    asset.fail(uri, in_quotes(uri.value->string) + " " + relative.refusal +
+    asset.fail(uri, in_quotes(uri.value->string()) + " " + relative.refusal +
                         (relative.leads_out ? ", or allow its folder (--allow-path)" : ""));
   }
   const std::string file = std::string(what) + " file " + in_quotes(path.string());
@@ -81,7 +81,7 @@ bool is_missing_resource(const Element& uri, const ResourceFolders& folders) {
 }
 
 void note_unread_resource(const Element& uri, const ResourceFolders& folders) {
-  const RelativePath relative = relative_path(uri.value->string);
+  const RelativePath relative = relative_path(uri.value->string());
   if (relative.refusal.empty()) note_unread_file(folders.own / relative.path);
 }
 

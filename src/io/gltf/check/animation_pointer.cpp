@@ -13,13 +13,13 @@ std::string why_no_pointer(const Asset& asset, std::string_view text) {
   if (!tokens) return "is not a JSON pointer: ~ must be followed by 0 or 1";
   const JsonValue* value = asset.root().value;
   for (std::size_t i = 0; i < tokens->size(); ++i) {
-    if (value->kind == JsonValue::Kind::array) {
+    if (value->kind() == JsonValue::Kind::array) {
       const std::optional<std::size_t> index = index_in((*tokens)[i]);
-      if (!index || *index >= value->items.size()) {
+      if (!index || *index >= value->items().size()) {
         return "points to item " + (*tokens)[i] + " of an array that has " +
-               std::to_string(value->items.size());
+               std::to_string(value->items().size());
       }
-      value = &value->items[*index];
+      value = &value->items()[*index];
       continue;
     }
     const JsonValue* member = value->find((*tokens)[i]);

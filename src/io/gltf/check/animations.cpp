@@ -35,19 +35,20 @@ class AnimationCheck {
   void animation(const Element& at) {
     const Element samplers = at.member("samplers");
     are_good_.clear();
-    for (std::size_t i = 0; i < samplers.value->items.size(); ++i) {
+    for (std::size_t i = 0; i < samplers.value->items().size(); ++i) {
       are_good_.push_back(input(samplers.item(i)));
     }
     const Element channels = at.member("channels");
     targets_.clear();
-    for (std::size_t i = 0; i < channels.value->items.size(); ++i) {
+    for (std::size_t i = 0; i < channels.value->items().size(); ++i) {
       const Element channel = channels.item(i);
       const Element sampler = channel.member("sampler");
-      if (sampler.value->number >= static_cast<double>(samplers.value->items.size())) {
-        asset_.fail(sampler, "is " + text(sampler.value->number) + ", but the animation has only " +
-                                 std::to_string(samplers.value->items.size()) + " samplers");
+      if (sampler.value->number() >= static_cast<double>(samplers.value->items().size())) {
+        asset_.fail(sampler, "is " + text(sampler.value->number()) +
+                                 ", but the animation has only " +
+                                 std::to_string(samplers.value->items().size()) + " samplers");
       }
-      const auto index = static_cast<std::size_t>(sampler.value->number);
+      const auto index = static_cast<std::size_t>(sampler.value->number());
       const Element target = channel.member("target");
       if (!are_good_[index] || !this->target(target, samplers.item(index))) leave_out(target);
     }
@@ -56,7 +57,7 @@ class AnimationCheck {
  private:
   static bool is_spline(const Element& sampler) {
     const JsonValue* interpolation = sampler.value->find("interpolation");
-    return interpolation != nullptr && interpolation->string == "CUBICSPLINE";
+    return interpolation != nullptr && interpolation->string() == "CUBICSPLINE";
   }
 
   /// Removes the channel's target. Readers ignore a channel without one (glTF 2.0, section 3.11).
@@ -78,7 +79,7 @@ class AnimationCheck {
                            "; animation times must be SCALAR of componentType 5126");
     }
     if (!head.has_bounds) {
-      asset_.tolerate(asset_.element("accessors", static_cast<std::size_t>(at.value->number)),
+      asset_.tolerate(asset_.element("accessors", static_cast<std::size_t>(at.value->number())),
                       "holds animation times without min and max, which glTF 2.0 requires");
     }
     if (is_spline(sampler) && head.count < 2) {
@@ -89,13 +90,13 @@ class AnimationCheck {
 
   bool target(const Element& at, const Element& sampler) {
     const JsonValue* index = at.value->find("node");
-    const std::string& path = at.member("path").value->string;
+    const std::string& path = at.member("path").value->string();
     if (extension(at, kPointerExtension) || path == "pointer") return pointer(at);
     const bool known =
         path == "translation" || path == "rotation" || path == "scale" || path == "weights";
     if (index == nullptr || !known)
       return true;  // ignored (section 3.11), or defined by an extension
-    const auto number = static_cast<std::size_t>(index->number);
+    const auto number = static_cast<std::size_t>(index->number());
     const JsonValue& node = asset_.array("nodes")[number];
     if (path != "weights" && node.find("matrix") != nullptr) {
       return wrong(at.member("node"), "has a matrix, which can't be animated by " + path);
@@ -120,12 +121,12 @@ class AnimationCheck {
       if (!asset_.uses(kPointerExtension)) return true;
       return wrong(path, "is \"pointer\" without an object of KHR_animation_pointer");
     }
-    if (path.value->string != "pointer") {
+    if (path.value->string() != "pointer") {
       return wrong(
           path, "must be \"pointer\", because the target has an object of KHR_animation_pointer");
     }
     const Element text = own->member("pointer");
-    const std::string why = why_no_pointer(asset_, text.value->string);
+    const std::string why = why_no_pointer(asset_, text.value->string());
     if (!why.empty()) return wrong(text, why);
     if (at.value->find("node") != nullptr) {
       asset_.tolerate(at.member("node"),
@@ -138,7 +139,7 @@ class AnimationCheck {
   [[nodiscard]] std::size_t morph_targets(const JsonValue& node) const {
     const JsonValue* mesh = node.find("mesh");
     if (mesh == nullptr) return 0;
-    return morph_target_count(asset_.array("meshes")[static_cast<std::size_t>(mesh->number)]);
+    return morph_target_count(asset_.array("meshes")[static_cast<std::size_t>(mesh->number())]);
   }
 
   bool output(const Element& sampler, const std::string& path, std::size_t targets) {

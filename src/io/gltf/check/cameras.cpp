@@ -15,12 +15,12 @@ void leave_out(Asset& asset, const Element& camera, const Element& at, const std
 
 void check_perspective(Asset& asset, const Element& camera, const Element& at) {
   const JsonValue* far = at.value->find("zfar");
-  if (far != nullptr && far->number <= at.member("znear").value->number) {
+  if (far != nullptr && far->number() <= at.member("znear").value->number()) {
     asset.tolerate(at.member("zfar"), "must be greater than znear; it is ignored");
     asset.drop(at, {"zfar"});
   }
   const Element yfov = at.member("yfov");
-  const double angle = yfov.value->number;
+  const double angle = yfov.value->number();
   if (angle <= 0) {
     leave_out(asset, camera, yfov, "must be greater than 0");
   } else if (angle >= std::numbers::pi) {
@@ -31,18 +31,18 @@ void check_perspective(Asset& asset, const Element& camera, const Element& at) {
 
 void check_orthographic(Asset& asset, const Element& camera, const Element& at) {
   for (const char* key : {"xmag", "ymag"}) {
-    const double magnitude = at.member(key).value->number;
+    const double magnitude = at.member(key).value->number();
     if (magnitude < 0) asset.warn(at.member(key), "is negative; its absolute value is used");
     if (magnitude != 0) continue;
     return leave_out(asset, camera, at.member(key), "must not be 0");
   }
-  if (at.member("zfar").value->number <= at.member("znear").value->number) {
+  if (at.member("zfar").value->number() <= at.member("znear").value->number()) {
     leave_out(asset, camera, at.member("zfar"), "must be greater than znear");
   }
 }
 
 void check_camera(Asset& asset, const Element& at) {
-  const std::string type = at.member("type").value->string;
+  const std::string type = at.member("type").value->string();
   const bool perspective = type == "perspective";
   const char* other = perspective ? "orthographic" : "perspective";
   if (at.value->find(other) != nullptr) {

@@ -32,7 +32,7 @@ std::optional<Version> parse_version(std::string_view text) {
 std::optional<Version> version(const Asset& asset, const Element& info, const char* key) {
   const JsonValue* value = info.value->find(key);
   if (value == nullptr) return std::nullopt;
-  const std::optional<Version> parsed = parse_version(value->string);
+  const std::optional<Version> parsed = parse_version(value->string());
   if (!parsed) asset.fail(info.member(key), "must be a string like \"2.0\"");
   return parsed;
 }
@@ -67,8 +67,8 @@ void check_version(Asset& asset) {
 
 /// Warns about an extension that is required but not used, which glTF 2.0, section 3.12, forbids.
 void check_extension(Asset& asset, const Element& at) {
-  if (at.value->kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
-  const std::string& name = at.value->string;
+  if (at.value->kind() != JsonValue::Kind::string) asset.fail(at, "must be a string");
+  const std::string& name = at.value->string();
   if (!asset.uses(name)) {
     asset.tolerate(at, "is missing from extensionsUsed; the requirement is ignored");
   } else if (support_of(name) == Support::none) {
@@ -86,7 +86,7 @@ void check_quantization(Asset& asset) {
   if (asset.requires_extension(kName)) return;
   const std::vector<JsonValue>& used = asset.array("extensionsUsed");
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i].string != kName) continue;
+    if (used[i].string() != kName) continue;
     asset.tolerate(asset.element("extensionsUsed", i), "must also be listed in extensionsRequired");
   }
 }
@@ -98,8 +98,8 @@ class FeatureSearch {
   void material(const Element& at) {
     present(at, "emissiveTexture", emission);
     if (const JsonValue* factor = at.value->find("emissiveFactor")) {
-      const auto shines = [](const JsonValue& item) { return item.number != 0; };
-      if (std::ranges::any_of(factor->items, shines)) {
+      const auto shines = [](const JsonValue& item) { return item.number() != 0; };
+      if (std::ranges::any_of(factor->items(), shines)) {
         asset_.warn(at.member("emissiveFactor"), emission);
       }
     }
@@ -119,7 +119,7 @@ class FeatureSearch {
 }  // namespace
 
 void check_requirements(Asset& asset) {
-  if (asset.root().value->kind != JsonValue::Kind::object) {
+  if (asset.root().value->kind() != JsonValue::Kind::object) {
     asset.fail(asset.root(), "must be an object: this is not glTF 2.0");
   }
   check_version(asset);
@@ -132,9 +132,9 @@ void check_requirements(Asset& asset) {
 void warn_of_ignored_features(Asset& asset, SurfaceDetail detail) {
   const std::vector<JsonValue>& used = asset.array("extensionsUsed");
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (support_of(used[i].string) == Support::full) continue;
+    if (support_of(used[i].string()) == Support::full) continue;
     asset.warn(asset.element("extensionsUsed", i),
-               "extension " + in_quotes(used[i].string) + " is not supported; it is ignored");
+               "extension " + in_quotes(used[i].string()) + " is not supported; it is ignored");
   }
   if (detail != SurfaceDetail::color) return;
   FeatureSearch search(asset);

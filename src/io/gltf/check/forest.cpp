@@ -7,11 +7,11 @@ namespace {
 
 std::size_t child_count(const JsonValue& node) {
   const JsonValue* children = node.find("children");
-  return children != nullptr ? children->items.size() : 0;
+  return children != nullptr ? children->items().size() : 0;
 }
 
 std::size_t child_of(const JsonValue& node, std::size_t number) {
-  return static_cast<std::size_t>(node.find("children")->items[number].number);
+  return static_cast<std::size_t>(node.find("children")->items()[number].number());
 }
 
 }  // namespace

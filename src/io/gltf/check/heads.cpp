@@ -7,16 +7,16 @@ namespace {
 
 std::size_t size_or_zero(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
-  return value != nullptr ? static_cast<std::size_t>(value->number) : 0;
+  return value != nullptr ? static_cast<std::size_t>(value->number()) : 0;
 }
 
 AccessorHead head_of(const Asset& asset, const JsonValue& accessor) {
   AccessorHead head;
-  if (const JsonValue* type = accessor.find("type")) head.format.type = type->string;
+  if (const JsonValue* type = accessor.find("type")) head.format.type = type->string();
   head.format.component_type = static_cast<int>(size_or_zero(accessor, "componentType"));
   const JsonValue* normalized = accessor.find("normalized");
-  head.format.normalized = normalized != nullptr && normalized->boolean;
-  head.count = accessor.find("count")->number;
+  head.format.normalized = normalized != nullptr && normalized->boolean();
+  head.count = accessor.find("count")->number();
   head.has_bounds = accessor.find("min") != nullptr && accessor.find("max") != nullptr;
   head.offset = size_or_zero(accessor, "byteOffset");
   if (accessor.find("bufferView") == nullptr) return head;
@@ -82,7 +82,7 @@ AccessorHeads::AccessorHeads(Asset& asset) : asset_(asset) {
 }
 
 void AccessorHeads::use(const Element& at, Purpose purpose) {
-  const auto index = static_cast<std::size_t>(at.value->number);
+  const auto index = static_cast<std::size_t>(at.value->number());
   Purpose& known = purposes_[index];
   const bool first_use = known == Purpose::none;
   if (first_use) {
@@ -113,7 +113,7 @@ void AccessorHeads::use_view(const Element& at, std::size_t view, Purpose purpos
     }
     const double target = purpose == Purpose::vertex_attribute ? 34962 : 34963;
     const JsonValue* given = json.find("target");
-    if (given != nullptr && (!is_vertex_data(purpose) || given->number != target)) {
+    if (given != nullptr && (!is_vertex_data(purpose) || given->number() != target)) {
       asset_.tolerate(at, std::string("uses a bufferView for ") + name_of(purpose) +
                               " whose target is different");
     }

@@ -54,7 +54,7 @@ class AccessorHeads {
     return heads_[accessor];
   }
   [[nodiscard]] const AccessorHead& operator[](const JsonValue& index) const {
-    return heads_[static_cast<std::size_t>(index.number)];
+    return heads_[static_cast<std::size_t>(index.number())];
   }
 
   /// Records that the index `at` refers to an accessor, and uses it and its view for this purpose.

@@ -9,7 +9,7 @@ namespace microtrace::io::gltf {
 namespace {
 
 void check_uri(Asset& asset, const Element& at) {
-  const std::string& uri = at.value->string;
+  const std::string& uri = at.value->string();
   if (!is_data_uri(uri) && uri.find('\\') != std::string::npos)
     asset.tolerate(at, "has a backslash, which is read as /");
   if (is_data_uri(uri)) {
@@ -24,7 +24,7 @@ void check_uri(Asset& asset, const Element& at) {
 void check_media_type(Asset& asset, const Element& image) {
   const JsonValue* given = image.value->find("mimeType");
   if (given == nullptr) return;
-  const auto known = std::ranges::find(extensions(), given->string, &Extension::image_type);
+  const auto known = std::ranges::find(extensions(), given->string(), &Extension::image_type);
   if (known == extensions().end() || known->image_type.empty() || asset.uses(known->name)) return;
   asset.tolerate(image.member("mimeType"),
                  "needs extension " + std::string(known->name) + ", which is not declared");
@@ -41,7 +41,7 @@ void check_image(Asset& asset, const Element& at, AccessorHeads& accessors) {
     asset.tolerate(at, "has a bufferView but no mimeType; the format is detected from the data");
   }
   const Element view = at.member("bufferView");
-  accessors.use_view(view, static_cast<std::size_t>(view.value->number), Purpose::image);
+  accessors.use_view(view, static_cast<std::size_t>(view.value->number()), Purpose::image);
 }
 
 /// Warns if the property that refers to an image does not allow the image's declared type.
@@ -49,11 +49,11 @@ void check_source(Asset& asset, const Element& texture, std::string_view type,
                   std::string_view other_type) {
   const JsonValue* index = texture.value->find("source");
   if (index == nullptr) return;
-  const JsonValue& image = asset.array("images")[static_cast<std::size_t>(index->number)];
+  const JsonValue& image = asset.array("images")[static_cast<std::size_t>(index->number())];
   const JsonValue* given = image.find("mimeType");
-  if (given == nullptr || given->string == type || given->string == other_type) return;
-  asset.tolerate(texture.member("source"), "refers to an image of " + given->string + ", must be " +
-                                               std::string(type) + " here");
+  if (given == nullptr || given->string() == type || given->string() == other_type) return;
+  asset.tolerate(texture.member("source"), "refers to an image of " + given->string() +
+                                               ", must be " + std::string(type) + " here");
 }
 
 }  // namespace

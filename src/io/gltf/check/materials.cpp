@@ -13,11 +13,11 @@ namespace {
 
 double number_or(const JsonValue& object, std::string_view key, double standard) {
   const JsonValue* value = object.find(key);
-  return value != nullptr ? value->number : standard;
+  return value != nullptr ? value->number() : standard;
 }
 
 void check_light(Asset& asset, const Element& at) {
-  if (at.member("type").value->string != "spot") return;
+  if (at.member("type").value->string() != "spot") return;
   if (at.value->find("spot") == nullptr) {
     return asset.tolerate(at, "lacks the property \"spot\"; the defaults are used");
   }
@@ -25,7 +25,7 @@ void check_light(Asset& asset, const Element& at) {
   if (spot.value->find("innerConeAngle") == nullptr) return;
   const Element inner = spot.member("innerConeAngle");
   const double outer = number_or(*spot.value, "outerConeAngle", std::numbers::pi / 4);
-  if (inner.value->number < outer) return;
+  if (inner.value->number() < outer) return;
   asset.tolerate(inner, "must be smaller than outerConeAngle; the light's cone has a sharp edge");
   asset.set(inner, std::nextafter(outer, 0));
 }
@@ -33,10 +33,10 @@ void check_light(Asset& asset, const Element& at) {
 /// Checks the mappings of KHR_materials_variants. Each variant must select only one material.
 void check_mappings(Asset& asset, const Element& at) {
   std::unordered_set<double> seen;
-  for (std::size_t i = 0; i < at.value->items.size(); ++i) {
+  for (std::size_t i = 0; i < at.value->items().size(); ++i) {
     const Element variants = at.item(i).member("variants");
-    for (std::size_t k = 0; k < variants.value->items.size(); ++k) {
-      if (seen.insert(variants.value->items[k].number).second) continue;
+    for (std::size_t k = 0; k < variants.value->items().size(); ++k) {
+      if (seen.insert(variants.value->items()[k].number()).second) continue;
       asset.tolerate(variants.item(k), "already has a material in an earlier mapping");
     }
   }
@@ -57,7 +57,7 @@ void check_materials(Asset& asset) {
   }
   for (std::size_t i = 0; i < asset.array("meshes").size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");
-    for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
+    for (std::size_t k = 0; k < primitives.value->items().size(); ++k) {
       const auto variants = extension(primitives.item(k), "KHR_materials_variants");
       if (variants) check_mappings(asset, variants->member("mappings"));
     }
@@ -68,7 +68,7 @@ void check_lights(Asset& asset) {
   const std::optional<Element> punctual = extension(asset.root(), "KHR_lights_punctual");
   if (!punctual) return;
   const Element lights = punctual->member("lights");
-  for (std::size_t i = 0; i < lights.value->items.size(); ++i) check_light(asset, lights.item(i));
+  for (std::size_t i = 0; i < lights.value->items().size(); ++i) check_light(asset, lights.item(i));
 }
 
 }  // namespace microtrace::io::gltf

@@ -63,7 +63,7 @@ bool is_quantized(std::string_view name, const Format& f, bool of_target) {
 
 std::size_t target_count(const JsonValue& primitive) {
   const JsonValue* targets = primitive.find("targets");
-  return targets != nullptr ? targets->items.size() : 0;
+  return targets != nullptr ? targets->items().size() : 0;
 }
 
 class MeshCheck {
@@ -77,7 +77,7 @@ class MeshCheck {
   void mesh(const Element& at) {
     const Element primitives = at.member("primitives");
     std::size_t targets = 0;
-    for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
+    for (std::size_t k = 0; k < primitives.value->items().size(); ++k) {
       const Element primitive = primitives.item(k);
       const std::size_t count = target_count(*primitive.value);
       if (k == 0) targets = count;
@@ -105,12 +105,12 @@ class MeshCheck {
 
   /// Drops attributes whose count differs from that of the positions.
   void same_counts(const Element& at) const {
-    if (at.value->members.empty()) return;
+    if (at.value->members().empty()) return;
     const JsonValue* position = at.value->find("POSITION");
-    const std::string first = position != nullptr ? "POSITION" : at.value->members.front().key;
+    const std::string first = position != nullptr ? "POSITION" : at.value->members().front().key;
     const double count = accessors_[*at.member(first).value].count;
     std::vector<std::string> dropped;
-    for (const JsonMember& member : at.value->members) {
+    for (const JsonMember& member : at.value->members()) {
       const double own = accessors_[member.value].count;
       if (own == count) continue;
       asset_.tolerate(at.member(member.key), "has " + text(own) + " elements, but " + first +
@@ -126,7 +126,7 @@ class MeshCheck {
     std::size_t joints = 0, weights = 0;
     for (const std::string_view name : {"TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"}) {
       std::size_t count = 0, end = 0;
-      for (const JsonMember& member : at.value->members) {
+      for (const JsonMember& member : at.value->members()) {
         const Semantic semantic = split(member.key);
         if (semantic.name != name) continue;
         ++count;
@@ -146,7 +146,7 @@ class MeshCheck {
 
   void attributes(const Element& at, bool of_target) {
     std::vector<std::string> dropped;
-    for (const JsonMember& member : at.value->members) {
+    for (const JsonMember& member : at.value->members()) {
       const Element attribute{&member.value, child(at.pointer, member.key)};
       accessors_.use(attribute, Purpose::vertex_attribute);
       if (!format(attribute, split(member.key).name, of_target)) {
@@ -158,8 +158,9 @@ class MeshCheck {
       }
       alignment(attribute);
       if (member.key == "POSITION" && !accessors_[member.value].has_bounds) {
-        asset_.tolerate(asset_.element("accessors", static_cast<std::size_t>(member.value.number)),
-                        "holds positions without min and max, which glTF 2.0 requires");
+        asset_.tolerate(
+            asset_.element("accessors", static_cast<std::size_t>(member.value.number())),
+            "holds positions without min and max, which glTF 2.0 requires");
       }
     }
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
@@ -203,7 +204,7 @@ class MeshCheck {
 
   void target(const Element& at, const Element& base) {
     std::vector<std::string> dropped;
-    for (const JsonMember& member : at.value->members) {
+    for (const JsonMember& member : at.value->members()) {
       const Element attribute{&member.value, child(at.pointer, member.key)};
       const std::string wrong = why_not_morphed(member, base.value->find(member.key));
       if (wrong.empty()) continue;
@@ -229,7 +230,7 @@ class MeshCheck {
   void material(const Element& at, const Element& attributes) const {
     const JsonValue* index = at.value->find("material");
     if (index == nullptr) return;
-    const MaterialTextures& textures = infos_[static_cast<std::size_t>(index->number)];
+    const MaterialTextures& textures = infos_[static_cast<std::size_t>(index->number())];
     for (const auto& [name, set] : textures.sets) {
       if (attributes.value->find("TEXCOORD_" + text(set)) != nullptr) continue;
       asset_.tolerate(at.member("material"), "needs TEXCOORD_" + text(set) + " for its " + name +
@@ -256,7 +257,7 @@ class MeshCheck {
 
 std::size_t morph_target_count(const JsonValue& mesh) {
   std::size_t most = 0;
-  for (const JsonValue& primitive : mesh.find("primitives")->items)
+  for (const JsonValue& primitive : mesh.find("primitives")->items())
     most = std::max(most, target_count(primitive));
   return most;
 }

@@ -17,7 +17,7 @@ struct MeshParts {
 std::vector<MeshParts> mesh_parts(const Asset& asset) {
   std::vector<MeshParts> result;
   for (const JsonValue& mesh : asset.array("meshes")) {
-    const std::vector<JsonValue>& primitives = mesh.find("primitives")->items;
+    const std::vector<JsonValue>& primitives = mesh.find("primitives")->items();
     MeshParts parts;
     parts.targets = morph_target_count(mesh);
     parts.has_joints = std::ranges::all_of(primitives, [](const JsonValue& primitive) {
@@ -36,7 +36,7 @@ void check_matrix(Asset& asset, const Element& at) {
     }
   }
   const Element matrix = at.member("matrix");
-  const auto item = [&](std::size_t i) { return matrix.value->items[i].number; };
+  const auto item = [&](std::size_t i) { return matrix.value->items()[i].number(); };
   if (item(3) != 0 || item(7) != 0 || item(11) != 0 || item(15) != 1) {
     asset.tolerate(matrix,
                    "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1; these values are used");
@@ -57,7 +57,7 @@ void check_matrix(Asset& asset, const Element& at) {
 
 void check_rotation(Asset& asset, const Element& at) {
   double square = 0;
-  for (const JsonValue& item : at.value->items) square += item.number * item.number;
+  for (const JsonValue& item : at.value->items()) square += item.number() * item.number();
   if (square == 0) {
     asset.tolerate(at, "must be a unit quaternion, is zero; it is ignored");
     return asset.set(at.item(3), 1);
@@ -74,7 +74,7 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
     asset.tolerate(at.member("weights"), "have no effect: the node has no mesh");
     return asset.drop(at, {"weights"});
   }
-  const MeshParts& parts = meshes[static_cast<std::size_t>(mesh->number)];
+  const MeshParts& parts = meshes[static_cast<std::size_t>(mesh->number())];
   if (has_skin && !parts.has_joints) {
     asset.tolerate(at.member("skin"), "applies to a mesh with a primitive that has no JOINTS_0");
   }
@@ -85,7 +85,7 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
 void drop_unknown_camera(Asset& asset, const Element& at) {
   const JsonValue* index = at.value->find("camera");
   if (index == nullptr) return;
-  const JsonValue& camera = asset.array("cameras")[static_cast<std::size_t>(index->number)];
+  const JsonValue& camera = asset.array("cameras")[static_cast<std::size_t>(index->number())];
   if (camera.find("type") == nullptr) asset.drop(at, {"camera"});
 }
 
@@ -93,8 +93,8 @@ void drop_unknown_camera(Asset& asset, const Element& at) {
 
 void check_weights(Asset& asset, const Element& at, std::size_t targets) {
   const JsonValue* weights = at.value->find("weights");
-  if (weights == nullptr || weights->items.size() == targets) return;
-  asset.tolerate(at.member("weights"), "has " + std::to_string(weights->items.size()) +
+  if (weights == nullptr || weights->items().size() == targets) return;
+  asset.tolerate(at.member("weights"), "has " + std::to_string(weights->items().size()) +
                                            " items for " + std::to_string(targets) +
                                            " morph targets; they are ignored");
   asset.drop(at, {"weights"});
@@ -111,9 +111,9 @@ void check_nodes(Asset& asset, const NodeForest& forest) {
   }
   for (std::size_t i = 0; i < asset.array("scenes").size(); ++i) {
     const Element nodes = asset.element("scenes", i).member("nodes");
-    for (std::size_t k = 0; k < nodes.value->items.size(); ++k) {
+    for (std::size_t k = 0; k < nodes.value->items().size(); ++k) {
       const Element node = nodes.item(k);
-      if (const auto parent = forest.parent(static_cast<std::size_t>(node.value->number))) {
+      if (const auto parent = forest.parent(static_cast<std::size_t>(node.value->number()))) {
         asset.tolerate(node, "is a child of node " + std::to_string(*parent) +
                                  "; scenes must list root nodes only");
       }

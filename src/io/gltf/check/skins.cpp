@@ -9,11 +9,11 @@ namespace microtrace::io::gltf {
 namespace {
 
 std::size_t index_of(const JsonValue& value) {
-  return static_cast<std::size_t>(value.number);
+  return static_cast<std::size_t>(value.number());
 }
 
 void check_joints(Asset& asset, const Element& at, const NodeForest& forest) {
-  const std::vector<JsonValue>& joints = at.member("joints").value->items;
+  const std::vector<JsonValue>& joints = at.member("joints").value->items();
   const auto has_other_root = [&](const JsonValue& joint) {
     return forest.root(index_of(joint)) != forest.root(index_of(joints[0]));
   };
@@ -39,7 +39,7 @@ void check_matrices(const Asset& asset, const Element& at, AccessorHeads& access
     asset.fail(matrices, "refers to an accessor of " + head.format.text() +
                              "; inverse bind matrices must be MAT4 of componentType 5126");
   }
-  const std::size_t joints = at.member("joints").value->items.size();
+  const std::size_t joints = at.member("joints").value->items().size();
   if (head.count < static_cast<double>(joints)) {
     asset.fail(matrices, "has " + std::to_string(static_cast<std::size_t>(head.count)) +
                              " matrices for " + std::to_string(joints) + " joints");
@@ -52,7 +52,7 @@ std::vector<bool> roots_in_scenes(const Asset& asset, const NodeForest& forest) 
   for (const JsonValue& scene : asset.array("scenes")) {
     const JsonValue* nodes = scene.find("nodes");
     if (nodes == nullptr) continue;
-    for (const JsonValue& node : nodes->items) result[forest.root(index_of(node))] = true;
+    for (const JsonValue& node : nodes->items()) result[forest.root(index_of(node))] = true;
   }
   return result;
 }
@@ -65,12 +65,13 @@ void check_skins(Asset& asset, AccessorHeads& accessors, const NodeForest& fores
     check_joints(asset, at, forest);
     check_matrices(asset, at, accessors);
   }
+  if (asset.array("skins").empty()) return;
   const std::vector<bool> in_scene = roots_in_scenes(asset, forest);
   for (std::size_t i = 0; i < asset.array("nodes").size(); ++i) {
     const Element at = asset.element("nodes", i);
     if (!in_scene[forest.root(i)] || at.value->find("skin") == nullptr) continue;
     const JsonValue& skin = asset.array("skins")[index_of(*at.value->find("skin"))];
-    const std::vector<JsonValue>& joints = skin.find("joints")->items;
+    const std::vector<JsonValue>& joints = skin.find("joints")->items();
     if (!joints.empty() && !in_scene[forest.root(index_of(joints[0]))]) {
       asset.tolerate(at.member("skin"), "has joints that belong to no scene");
     }

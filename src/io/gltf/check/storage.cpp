@@ -10,33 +10,33 @@ namespace {
 constexpr double kElementArrayBuffer = 34963;
 
 void check_view(Asset& asset, const Element& at) {
-  if (at.member("byteLength").value->number == 0)
+  if (at.member("byteLength").value->number() == 0)
     asset.tolerate(at.member("byteLength"), "must be an integer of at least 1, is 0");
   const JsonValue* stride = at.value->find("byteStride");
   if (stride == nullptr) return;
-  if (stride->number == 0) {
+  if (stride->number() == 0) {
     asset.tolerate(at.member("byteStride"), "must not be 0; the data is read as tightly packed");
     asset.drop(at, {"byteStride"});
     return;
   }
-  if (stride->number < 4 || stride->number > 252 || std::fmod(stride->number, 4) != 0)
+  if (stride->number() < 4 || stride->number() > 252 || std::fmod(stride->number(), 4) != 0)
     asset.tolerate(at.member("byteStride"), "must be a multiple of 4 between 4 and 252");
-  if (stride->number > at.member("byteLength").value->number) {
+  if (stride->number() > at.member("byteLength").value->number()) {
     asset.fail(at.member("byteStride"), "is greater than byteLength");
   }
   const JsonValue* target = at.value->find("target");
-  if (target != nullptr && target->number == kElementArrayBuffer) {
+  if (target != nullptr && target->number() == kElementArrayBuffer) {
     asset.tolerate(at.member("byteStride"), "is not allowed for indices, which are tightly packed");
   }
 }
 
 void check_bounds(Asset& asset, const Element& at) {
-  const std::size_t expected = component_count(element_type(at.member("type").value->string));
+  const std::size_t expected = component_count(element_type(at.member("type").value->string()));
   for (const char* key : {"min", "max"}) {
     const JsonValue* bounds = at.value->find(key);
-    if (bounds == nullptr || bounds->items.size() == expected) continue;
+    if (bounds == nullptr || bounds->items().size() == expected) continue;
     asset.tolerate(at.member(key), "must have " + std::to_string(expected) + " items, has " +
-                                       std::to_string(bounds->items.size()) + "; it is ignored");
+                                       std::to_string(bounds->items().size()) + "; it is ignored");
     asset.drop(at, {key});
   }
 }
@@ -51,8 +51,8 @@ void check_accessor(Asset& asset, const Element& at) {
   if (at.value->find("byteOffset") != nullptr && at.value->find("bufferView") == nullptr) {
     asset.tolerate(at.member("byteOffset"), "has no effect: the accessor has no bufferView");
   }
-  const bool can_be_normalized = component->number != kFloat32 && component->number != kUint32;
-  if (normalized != nullptr && normalized->boolean && !can_be_normalized) {
+  const bool can_be_normalized = component->number() != kFloat32 && component->number() != kUint32;
+  if (normalized != nullptr && normalized->boolean() && !can_be_normalized) {
     asset.tolerate(at.member("normalized"),
                    "has no effect: only integers of 8 or 16 bits can be normalized");
     asset.drop(at, {"normalized"});

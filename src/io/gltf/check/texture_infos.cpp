@@ -11,14 +11,14 @@ double set_of(const JsonValue& info) {
   const JsonValue* transform = extension(info, "KHR_texture_transform");
   const JsonValue* set = transform != nullptr ? transform->find("texCoord") : nullptr;
   if (set == nullptr) set = info.find("texCoord");
-  return set != nullptr ? set->number : 0;
+  return set != nullptr ? set->number() : 0;
 }
 
 /// Collects the texture infos in an object. By check_schema's rules, these are the objects whose
 /// key ends in "Texture".
 void collect(const JsonValue& object, std::vector<std::pair<std::string, double>>& sets) {
-  for (const JsonMember& member : object.members) {
-    if (member.key == "extras" || member.value.kind != JsonValue::Kind::object) continue;
+  for (const JsonMember& member : object.members()) {
+    if (member.key == "extras" || member.value.kind() != JsonValue::Kind::object) continue;
     const JsonValue* index = member.value.find("index");
     if (member.key.ends_with("Texture") && index != nullptr) {
       sets.emplace_back(member.key, set_of(member.value));

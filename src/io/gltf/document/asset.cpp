@@ -11,24 +11,24 @@ Element Element::member(std::string_view key) const {
 }
 
 Element Element::item(std::size_t index) const {
-  return {index < value->items.size() ? &value->items[index] : value, child(pointer, index)};
+  return {index < value->items().size() ? &value->items()[index] : value, child(pointer, index)};
 }
 
 Asset::Asset(JsonDocument& json) : json_(json) {
   if (const OutdoneKeys& outdone = json.outdone_keys(); outdone.count > 0) {
     JsonValue key;
-    key.offset = outdone.offset;
+    key.offset = static_cast<std::uint32_t>(outdone.offset);
     note({&key, outdone.pointer}, "occurs twice in its object; the last one is used",
          Severity::error, outdone.count);
   }
-  for (const JsonValue& item : array("extensionsUsed")) used_.insert(item.string);
-  for (const JsonValue& item : array("extensionsRequired")) required_.insert(item.string);
+  for (const JsonValue& item : array("extensionsUsed")) used_.insert(item.string());
+  for (const JsonValue& item : array("extensionsRequired")) required_.insert(item.string());
 }
 
 const std::vector<JsonValue>& Asset::array(std::string_view name) const {
   static const std::vector<JsonValue> none;
   const JsonValue* found = json_.root().find(name);
-  return found != nullptr ? found->items : none;
+  return found != nullptr ? found->items() : none;
 }
 
 Element Asset::element(std::string_view name, std::size_t index) const {
@@ -48,13 +48,13 @@ bool Asset::requires_extension(std::string_view extension) const {
 }
 
 void Asset::drop(const Element& object, const std::unordered_set<std::string_view>& keys) {
-  JsonValue& value = *resolve(json_.root(), object.pointer);
-  std::erase_if(value.members, [&](const JsonMember& member) { return keys.contains(member.key); });
-  value.index_members();
+  resolve(json_.root(), object.pointer)->remove_members([&](std::string_view key) {
+    return keys.contains(key);
+  });
 }
 
 void Asset::set(const Element& at, double number) {
-  resolve(json_.root(), at.pointer)->number = number;
+  resolve(json_.root(), at.pointer)->set(JsonValue(number));
 }
 
 void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {

@@ -31,16 +31,16 @@ double number(const Asset& asset, const Element& object, std::string_view key, d
               double least, double most) {
   const JsonValue* value = object.value->find(key);
   if (value == nullptr) return standard;
-  const bool in_range = value->number >= least && value->number <= most;
-  if (value->kind == JsonValue::Kind::number && in_range) return value->number;
+  const bool in_range = value->number() >= least && value->number() <= most;
+  if (value->kind() == JsonValue::Kind::number && in_range) return value->number();
   asset.fail(object.member(key), "must be a number in its range");
 }
 
 std::size_t whole_number(const Asset& asset, const Element& object, std::string_view key,
                          std::size_t most) {
   const Element at = required(asset, object, key);
-  const double value = at.value->number;
-  if (at.value->kind == JsonValue::Kind::number && value >= 0 && std::trunc(value) == value &&
+  const double value = at.value->number();
+  if (at.value->kind() == JsonValue::Kind::number && value >= 0 && std::trunc(value) == value &&
       value <= static_cast<double>(most)) {
     return static_cast<std::size_t>(value);
   }
@@ -55,8 +55,8 @@ std::size_t index(const Asset& asset, const Element& object, std::string_view ke
 
 const std::string& string(const Asset& asset, const Element& object, std::string_view key) {
   const Element at = required(asset, object, key);
-  if (at.value->kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
-  return at.value->string;
+  if (at.value->kind() != JsonValue::Kind::string) asset.fail(at, "must be a string");
+  return at.value->string();
 }
 
 }  // namespace microtrace::io::gltf

@@ -1,6 +1,7 @@
 #include "io/gltf/document/model.hpp"
 
 #include "base/memory_account.hpp"
+#include "io/gltf/document/model_json.hpp"
 #include "io/json/write.hpp"
 
 #include <microtrace/material.hpp>
@@ -17,9 +18,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Members of the root object that tinygltf parses. None of them contains URIs or images.
-constexpr std::array<std::string_view, 7> kParsedMembers = {
-    "asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"};
+/// Members of the root object that tinygltf parses. None of them contains URIs or images. There may
+/// be millions of nodes, which would take a kilobyte each, so they are read from the JSON.
+constexpr std::array<std::string_view, 6> kParsedMembers = {"asset",  "scene",     "scenes",
+                                                            "meshes", "accessors", "bufferViews"};
 
 /// Members omitted from the text that tinygltf parses. Indices, sparse parts and strides are read
 /// from the JSON instead, because tinygltf 2.7.0 rejects index accessors without a buffer view,
@@ -38,7 +40,7 @@ std::string parsed_part(const JsonValue& root) {
   const auto separate = [&text] {
     if (text.back() != '{' && text.back() != '[') text += ',';
   };
-  for (const JsonMember& member : root.members) {
+  for (const JsonMember& member : root.members()) {
     if (std::ranges::find(kParsedMembers, member.key) == kParsedMembers.end()) continue;
     separate();
     append_json(text, member.key);
@@ -48,7 +50,7 @@ std::string parsed_part(const JsonValue& root) {
       continue;
     }
     text += '[';
-    for (const JsonValue& accessor : member.value.items) {
+    for (const JsonValue& accessor : member.value.items()) {
       separate();
       if (is_unknown(accessor)) {  // otherwise tinygltf would reject the whole asset
         text += R"({"type":"SCALAR","componentType":5121,"count":1})";
@@ -97,18 +99,8 @@ tinygltf::Model parse(const Asset& asset) {
   return model;
 }
 
-std::size_t index_from(const JsonValue& value) {
-  return static_cast<std::size_t>(value.number);
-}
-
-/// Returns the index in an optional member.
-std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key) {
-  const JsonValue* value = object.find(key);
-  return value != nullptr ? std::optional(index_from(*value)) : std::nullopt;
-}
-
 /// Converts an index of tinygltf, which uses -1 for an absent index.
-std::optional<std::size_t> index_from(int index) {
+std::optional<std::size_t> optional_index(int index) {
   return index >= 0 ? std::optional(static_cast<std::size_t>(index)) : std::nullopt;
 }
 
@@ -140,7 +132,7 @@ Model::Sparse sparse_of(const JsonValue& json) {
   return {.count = index_from(*json.find("count")),
           .indices_view = index_from(*indices.find("bufferView")),
           .indices_offset = index_in(indices, "byteOffset").value_or(0),
-          .index_type = static_cast<int>(indices.find("componentType")->number),
+          .index_type = static_cast<int>(indices.find("componentType")->number()),
           .values_view = index_from(*values.find("bufferView")),
           .values_offset = index_in(values, "byteOffset").value_or(0)};
 }
@@ -151,7 +143,7 @@ Model::Accessor accessor_of(const tinygltf::Accessor& accessor, const JsonValue&
                          .component_type = accessor.componentType,
                          .normalized = accessor.normalized,
                          .count = accessor.count,
-                         .view = index_from(accessor.bufferView),
+                         .view = optional_index(accessor.bufferView),
                          .offset = accessor.byteOffset};
   if (const JsonValue* sparse = json.find("sparse")) result.sparse = sparse_of(*sparse);
   return result;
@@ -168,7 +160,7 @@ Model::Attributes attributes_of(const std::map<std::string, int>& attributes) {
 Model::Primitive primitive_of(const tinygltf::Primitive& primitive, const JsonValue& json) {
   Model::Primitive result{.attributes = attributes_of(primitive.attributes),
                           .indices = index_in(json, "indices"),
-                          .material = index_from(primitive.material),
+                          .material = optional_index(primitive.material),
                           .mode = static_cast<Model::Mode>(primitive.mode)};
   for (const auto& target : primitive.targets) result.targets.push_back(attributes_of(target));
   return result;
@@ -176,7 +168,7 @@ Model::Primitive primitive_of(const tinygltf::Primitive& primitive, const JsonVa
 
 Model::Mesh mesh_of(tinygltf::Mesh& mesh, const JsonValue& json) {
   Model::Mesh result{.name = std::move(mesh.name), .weights = std::move(mesh.weights)};
-  const std::vector<JsonValue>& primitives = json.find("primitives")->items;
+  const std::vector<JsonValue>& primitives = json.find("primitives")->items();
   result.primitives.reserve(primitives.size());
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     result.primitives.push_back(primitive_of(mesh.primitives[i], primitives[i]));
@@ -184,43 +176,10 @@ Model::Mesh mesh_of(tinygltf::Mesh& mesh, const JsonValue& json) {
   return result;
 }
 
-DVec3 vector_of(const std::vector<double>& v, const DVec3& standard) {
-  return v.empty() ? standard : DVec3(v[0], v[1], v[2]);
-}
-
-Model::Node node_of(tinygltf::Node& node) {
-  Model::Node result{.name = std::move(node.name),
-                     .children = indices_of(node.children),
-                     .mesh = index_from(node.mesh),
-                     .skin = index_from(node.skin),
-                     .camera = index_from(node.camera),
-                     .weights = std::move(node.weights)};
-  if (!node.matrix.empty()) {
-    DMat4& matrix = result.matrix.emplace();
-    for (std::size_t i = 0; i < 16; ++i) {
-      matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
-    }
-  }
-  result.translation = vector_of(node.translation, result.translation);
-  result.scale = vector_of(node.scale, result.scale);
-  if (const auto& q = node.rotation; !q.empty()) result.rotation = {q[0], q[1], q[2], q[3]};
-  return result;
-}
-
-/// Makes a skin from the JSON, because tinygltf 2.7.0 rejects skins without inverse bind matrices,
-/// which glTF allows.
-Model::Skin skin_of(const JsonValue& json) {
-  Model::Skin result{.inverse_bind_matrices = index_in(json, "inverseBindMatrices")};
-  for (const JsonValue& joint : json.find("joints")->items) {
-    result.joints.push_back(index_from(joint));
-  }
-  return result;
-}
-
 std::size_t count_values(const JsonValue& value) {
   std::size_t result = 1;
-  for (const JsonValue& item : value.items) result += count_values(item);
-  for (const JsonMember& member : value.members) result += count_values(member.value);
+  for (const JsonValue& item : value.items()) result += count_values(item);
+  for (const JsonMember& member : value.members()) result += count_values(member.value);
   return result;
 }
 
@@ -241,7 +200,7 @@ void count_model(const Asset& asset) {
   for (const JsonValue& mesh : asset.array("meshes")) {
     const JsonValue* primitives = mesh.find("primitives");
     if (primitives == nullptr) continue;
-    count(primitives->items.size(), sizeof(Model::Primitive) + 3 * kParts);
+    count(primitives->items().size(), sizeof(Model::Primitive) + 3 * kParts);
   }
 }
 
@@ -250,10 +209,11 @@ void count_model(const Asset& asset) {
 Model parse_model(const Asset& asset) {
   // Estimated memory for the text, for tinygltf's own JSON tree, and for tinygltf's result.
   constexpr std::size_t kBytesOfValue = 160, kBytesOfItem = 512;
-  const JsonValue& root = *asset.root().value;
-  std::size_t work_bytes = count_values(root) * kBytesOfValue;
-  for (const std::string_view array : kParsedMembers) {
-    work_bytes += asset.array(array).size() * kBytesOfItem;
+  std::size_t work_bytes = 0;
+  for (const std::string_view name : kParsedMembers) {
+    const JsonValue* const parsed = asset.root().value->find(name);
+    if (parsed == nullptr) continue;
+    work_bytes += count_values(*parsed) * kBytesOfValue + parsed->items().size() * kBytesOfItem;
   }
   const MemoryAccount work = temporary_memory(work_bytes, "reading the asset's JSON");
   count_model(asset);
@@ -268,7 +228,7 @@ Model parse_model(const Asset& asset) {
         {.buffer = static_cast<std::size_t>(view.buffer),
          .offset = view.byteOffset,
          .length = view.byteLength,
-         .stride = stride != nullptr ? static_cast<std::size_t>(stride->number) : 0});
+         .stride = stride != nullptr ? static_cast<std::size_t>(stride->number()) : 0});
   }
   for (std::size_t i = 0; i < accessors.size(); ++i) {
     model.accessors.push_back(accessor_of(parsed.accessors[i], accessors[i]));
@@ -276,12 +236,13 @@ Model parse_model(const Asset& asset) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     model.meshes.push_back(mesh_of(parsed.meshes[i], meshes[i]));
   }
-  for (tinygltf::Node& node : parsed.nodes) model.nodes.push_back(node_of(node));
+  model.nodes.reserve(asset.array("nodes").size());
+  for (const JsonValue& node : asset.array("nodes")) model.nodes.push_back(node_of(node));
   for (const JsonValue& skin : asset.array("skins")) model.skins.push_back(skin_of(skin));
   for (const tinygltf::Scene& scene : parsed.scenes) {
     model.scenes.push_back(indices_of(scene.nodes));
   }
-  model.scene = index_from(parsed.defaultScene).value_or(0);
+  model.scene = optional_index(parsed.defaultScene).value_or(0);
   return model;
 }
 

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,10 +69,12 @@ struct Model {
     std::string name{};
     std::vector<std::size_t> children{};
     std::optional<std::size_t> mesh{}, skin{}, camera{};
-    std::optional<DMat4> matrix{};  ///< if present, replaces the three properties below
+    /// If not null, replaces the three properties below.
+    std::shared_ptr<const DMat4> matrix{};
     DVec3 translation{0}, scale{1};
     glm::dvec4 rotation{0, 0, 0, 1};  ///< (x, y, z, w), not necessarily of unit length
     std::vector<double> weights{};
+    bool has_extensions = false;
   };
 
   struct Skin {

@@ -12,19 +12,19 @@ float finite_float(double x) {
 
 float number(const JsonValue& object, std::string_view key, float standard) {
   const JsonValue* value = object.find(key);
-  return value != nullptr ? finite_float(value->number) : standard;
+  return value != nullptr ? finite_float(value->number()) : standard;
 }
 
 std::uint32_t index(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
   constexpr std::uint32_t kGreatest = std::numeric_limits<std::uint32_t>::max();
   if (value == nullptr) return 0;
-  return static_cast<std::uint32_t>(std::min<double>(value->number, kGreatest));
+  return static_cast<std::uint32_t>(std::min<double>(value->number(), kGreatest));
 }
 
 std::string name_of(const JsonValue& object) {
   const JsonValue* name = object.find("name");
-  return name != nullptr ? name->string : std::string();
+  return name != nullptr ? name->string() : std::string();
 }
 
 }  // namespace microtrace::io::gltf

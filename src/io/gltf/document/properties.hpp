@@ -22,7 +22,7 @@ template <typename Vector>
   if (value == nullptr) return standard;
   Vector result(0);
   for (int i = 0; i < Vector::length(); ++i) {
-    result[i] = finite_float(value->items[static_cast<std::size_t>(i)].number);
+    result[i] = finite_float(value->items()[static_cast<std::size_t>(i)].number());
   }
   return result;
 }

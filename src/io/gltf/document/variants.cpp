@@ -19,13 +19,13 @@ std::size_t index_of(const Asset& asset, const std::string& wanted) {
     throw Error(ErrorKind::usage, asset.file(), "has no variants; leave out --variant");
   }
   std::string names;
-  for (std::size_t i = 0; i < variants->items.size(); ++i) {
-    const JsonValue* name = variants->items[i].find("name");
-    if (name != nullptr && name->string == wanted) return i;
+  for (std::size_t i = 0; i < variants->items().size(); ++i) {
+    const JsonValue* name = variants->items()[i].find("name");
+    if (name != nullptr && name->string() == wanted) return i;
     names += (i == 0 ? "" : ", ") + std::to_string(i);
-    if (name != nullptr) names += " (" + printable(name->string) + ")";
+    if (name != nullptr) names += " (" + printable(name->string()) + ")";
   }
-  for (std::size_t i = 0; i < variants->items.size(); ++i) {
+  for (std::size_t i = 0; i < variants->items().size(); ++i) {
     if (std::to_string(i) == wanted) return i;
   }
   throw Error(ErrorKind::usage, asset.file(),
@@ -43,13 +43,13 @@ void choose_variant(const Asset& asset, const std::string& variant, Model& model
       const std::optional<Element> own = extension(primitives.item(k), kExtensionName);
       const JsonValue* mappings = own ? own->value->find("mappings") : nullptr;
       if (mappings == nullptr) continue;
-      for (const JsonValue& mapping : mappings->items) {
+      for (const JsonValue& mapping : mappings->items()) {
         const JsonValue* variants = mapping.find("variants");
         const JsonValue* material = mapping.find("material");
         if (variants == nullptr || material == nullptr) continue;
-        const auto is_wanted = [wanted](const JsonValue& item) { return item.number == wanted; };
-        if (!std::ranges::any_of(variants->items, is_wanted)) continue;
-        model.meshes[i].primitives[k].material = static_cast<std::size_t>(material->number);
+        const auto is_wanted = [wanted](const JsonValue& item) { return item.number() == wanted; };
+        if (!std::ranges::any_of(variants->items(), is_wanted)) continue;
+        model.meshes[i].primitives[k].material = static_cast<std::size_t>(material->number());
         break;  // glTF allows only one material for a variant
       }
     }

@@ -17,7 +17,8 @@ constexpr Rule kAnisotropyRules[] = {factor("anisotropyStrength"), number("aniso
                                      texture("anisotropyTexture")};
 Anisotropy anisotropy(const JsonValue& json) {
   const JsonValue* rotation = json.find("anisotropyRotation");
-  const double angle = rotation != nullptr ? std::fmod(rotation->number, 2 * std::numbers::pi) : 0;
+  const double angle =
+      rotation != nullptr ? std::fmod(rotation->number(), 2 * std::numbers::pi) : 0;
   return {.strength = number(json, "anisotropyStrength", 0),
           .rotation = finite_float(angle),
           .texture = texture_use(json, "anisotropyTexture")};

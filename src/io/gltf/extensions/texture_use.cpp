@@ -16,7 +16,8 @@ Mat3x2 texture_transform(const JsonValue& json) {
   const Vec2 offset = vector(json, "offset", Vec2(0)), scale = vector(json, "scale", Vec2(1));
   const JsonValue* rotation = json.find("rotation");
   // sin_radians and cos_radians accept angles up to 2^20.
-  const double angle = rotation != nullptr ? std::fmod(rotation->number, 2 * std::numbers::pi) : 0;
+  const double angle =
+      rotation != nullptr ? std::fmod(rotation->number(), 2 * std::numbers::pi) : 0;
   const double sine = sin_radians(angle), cosine = cos_radians(angle);
   return {Vec2(cosine * scale.x, -sine * scale.x), Vec2(sine * scale.y, cosine * scale.y), offset};
 }

@@ -36,10 +36,10 @@ std::string_view media_type(ImageFormat format) {
 
 /// Returns the declared media type of an image. Empty if undeclared.
 std::string_view declared_type(const Element& at) {
-  if (const JsonValue* type = at.value->find("mimeType")) return type->string;
+  if (const JsonValue* type = at.value->find("mimeType")) return type->string();
   const JsonValue* uri = at.value->find("uri");
   if (uri == nullptr) return {};
-  const std::optional<DataUri> data = split_data_uri(uri->string);
+  const std::optional<DataUri> data = split_data_uri(uri->string());
   return data ? data->media_type : std::string_view();
 }
 
@@ -58,7 +58,7 @@ bool is_type_of(std::string_view type, ImageFormat format) {
 /// 2.8), as the Khronos validator does.
 bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   constexpr std::array<std::string_view, 2> kNotDecoded = {"image/avif", "image/vnd-ms.dds"};
-  const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
+  const std::string type = small_letters(split_data_uri(uri.value->string())->media_type);
   const bool is_right = format == ImageFormat::unknown
                             ? std::ranges::find(kNotDecoded, type) != kNotDecoded.end()
                             : is_type_of(type, format);
@@ -94,7 +94,7 @@ class ImageLoader {
     }
     const ImageHeader header = read_image_header(*bytes);
     const JsonValue* uri = at.value->find("uri");
-    const bool is_right = uri == nullptr || !is_data_uri(uri->string) ||
+    const bool is_right = uri == nullptr || !is_data_uri(uri->string()) ||
                           check_media_type(asset_, at.member("uri"), header.format);
     if (header.format == ImageFormat::unknown) {
       asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; its textures are white");
@@ -120,7 +120,7 @@ class ImageLoader {
  private:
   [[nodiscard]] bool is_missing(const Element& at) const {
     const JsonValue* uri = at.value->find("uri");
-    return uri != nullptr && !is_data_uri(uri->string) &&
+    return uri != nullptr && !is_data_uri(uri->string()) &&
            is_missing_resource(at.member("uri"), folders_);
   }
 
@@ -128,10 +128,10 @@ class ImageLoader {
                                            MemoryAccount& memory) const {
     const MemoryScope scope(memory);
     if (const JsonValue* view = at.value->find("bufferView")) {
-      return views_.bytes(static_cast<std::size_t>(view->number));
+      return views_.bytes(static_cast<std::size_t>(view->number()));
     }
     const Element uri = at.member("uri");
-    storage = is_data_uri(uri.value->string)
+    storage = is_data_uri(uri.value->string())
                   ? decode_data_uri(asset_, uri)
                   : read_resource(asset_, uri, folders_, "image", kMaxImageBytes);
     return storage;
@@ -193,7 +193,7 @@ class ImageLoader {
     if (!decoded.complaint.empty()) {
       asset_.tolerate(at, "holds an incomplete image: " + decoded.complaint);
     }
-    if (const JsonValue* name = at.value->find("name")) decoded.image->name = name->string;
+    if (const JsonValue* name = at.value->find("name")) decoded.image->name = name->string();
     return std::make_shared<const Image>(std::move(*decoded.image));
   }
 

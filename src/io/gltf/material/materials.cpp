@@ -12,8 +12,8 @@ namespace {
 
 AlphaMode alpha_mode(const JsonValue& material) {
   const JsonValue* mode = material.find("alphaMode");
-  if (mode == nullptr || mode->string == "OPAQUE") return AlphaMode::opaque;
-  return mode->string == "MASK" ? AlphaMode::mask : AlphaMode::blend;
+  if (mode == nullptr || mode->string() == "OPAQUE") return AlphaMode::opaque;
+  return mode->string() == "MASK" ? AlphaMode::mask : AlphaMode::blend;
 }
 
 Material standard_material() {
@@ -65,7 +65,7 @@ Material make_material(const JsonValue& json, UnusedLayers unused) {
   material.alpha_mode = alpha_mode(json);
   material.alpha_cutoff = number(json, "alphaCutoff", 0.5F);
   const JsonValue* double_sided = json.find("doubleSided");
-  material.double_sided = double_sided != nullptr && double_sided->boolean;
+  material.double_sided = double_sided != nullptr && double_sided->boolean();
   material.normal_texture = texture_use(json, "normalTexture");
   if (material.normal_texture)
     material.normal_scale = number(*json.find("normalTexture"), "scale", 1);
@@ -85,7 +85,7 @@ Material make_material(const JsonValue& json, UnusedLayers unused) {
 std::vector<Material> make_materials(const JsonValue& root, UnusedLayers unused) {
   std::vector<Material> materials;
   if (const JsonValue* array = root.find("materials")) {
-    for (const JsonValue& json : array->items) materials.push_back(make_material(json, unused));
+    for (const JsonValue& json : array->items()) materials.push_back(make_material(json, unused));
   }
   materials.push_back(standard_material());
   return materials;

@@ -13,8 +13,8 @@ namespace {
 
 Wrap wrap(const JsonValue& sampler, std::string_view key) {
   const JsonValue* mode = sampler.find(key);
-  if (mode == nullptr || mode->number == 10497) return Wrap::repeat;
-  return mode->number == 33071 ? Wrap::clamp_to_edge : Wrap::mirrored_repeat;
+  if (mode == nullptr || mode->number() == 10497) return Wrap::repeat;
+  return mode->number() == 33071 ? Wrap::clamp_to_edge : Wrap::mirrored_repeat;
 }
 
 /// Converts a sampler's OpenGL constants. Odd filters are linear within an image. Those from 9984
@@ -53,7 +53,7 @@ std::vector<Texture> make_textures(Asset& asset) {
     }
     if (const JsonValue* sampler = json.find("sampler")) {
       texture.sampler =
-          make_sampler(asset.array("samplers")[static_cast<std::size_t>(sampler->number)]);
+          make_sampler(asset.array("samplers")[static_cast<std::size_t>(sampler->number())]);
     }
     textures.push_back(std::move(texture));
   }

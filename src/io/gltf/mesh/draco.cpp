@@ -155,7 +155,7 @@ bool DracoDecoder::has_module(const Element& at) {
 void DracoDecoder::plan(const Model::Primitive& primitive, Job& job) const {
   job.sources.emplace(job.indices, Source(job.view, kIdOfIndices));
   const Element names = job.at.member("attributes");
-  for (const JsonMember& member : names.value->members) {
+  for (const JsonMember& member : names.value->members()) {
     const auto attribute = primitive.attributes.find(member.key);
     if (attribute == primitive.attributes.end()) continue;
     const std::size_t id = whole_number(asset_, names, member.key, 0xFFFFFFFF);

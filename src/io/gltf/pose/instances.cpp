@@ -30,7 +30,7 @@ class Maker {
   /// buffer has no data.
   std::optional<InstanceTransforms> make(std::size_t most) {
     std::optional<std::size_t> count;
-    for (const JsonMember& member : attributes_.value->members) {
+    for (const JsonMember& member : attributes_.value->members()) {
       const std::size_t accessor = index(asset_, attributes_, member.key, model_.accessors.size());
       const std::size_t size = model_.accessors[accessor].count;
       if (count && *count != size) {
@@ -106,8 +106,9 @@ DMat4 InstanceTransforms::operator[](std::size_t instance) const {
 Instances::Instances(Asset& asset, const Model& model, AccessorReader& reader) {
   std::size_t left = kMaxInstances;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (!model.nodes[i].has_extensions || !model.nodes[i].mesh) continue;
     const auto at = extension(asset.element("nodes", i), "EXT_mesh_gpu_instancing");
-    if (!at || !model.nodes[i].mesh) continue;
+    if (!at) continue;
     if (at->value->find("attributes") == nullptr) {
       asset.fail(*at, "lacks the required property \"attributes\"");
     }

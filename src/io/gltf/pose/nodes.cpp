@@ -18,13 +18,14 @@ bool starts_character(char byte) {
 }
 
 /// Returns true if the node itself is visible. The pose may animate this.
-bool is_shown(const Asset& asset, std::size_t node, const PosedNodes& pose) {
+bool is_shown(const Asset& asset, const Model& model, std::size_t node, const PosedNodes& pose) {
   const auto posed = pose.empty() ? pose.end() : pose.find(node);
   if (posed != pose.end() && posed->second.visible) return *posed->second.visible;
+  if (!model.nodes[node].has_extensions) return true;
   const auto visibility = extension(asset.element("nodes", node), "KHR_node_visibility");
   if (!visibility) return true;
   const JsonValue* visible = visibility->value->find("visible");
-  return visible == nullptr || visible->kind != JsonValue::Kind::boolean || visible->boolean;
+  return visible == nullptr || visible->kind() != JsonValue::Kind::boolean || visible->boolean();
 }
 
 }  // namespace
@@ -38,7 +39,6 @@ std::optional<DVec3> normalized(const DVec3& v) {
 NodeTree::NodeTree(const Model& model) : model_(model), parents_(model.nodes.size()) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     for (const std::size_t child : model.nodes[i].children) parents_[child] = i;
-    parent_from_node_.push_back(local(i));
   }
 }
 
@@ -50,21 +50,17 @@ std::vector<std::size_t> NodeTree::roots() const {
   return result;
 }
 
-DMat4 NodeTree::local(std::size_t index) const {
-  const Model::Node& node = model_.nodes[index];
-  if (!node.matrix) return composed(node.translation, unit_quaternion(node.rotation), node.scale);
-  DMat4 result = *node.matrix;
-  for (int i = 0; i < 4; ++i)
-    result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns if the last row differs
-  return result;
-}
-
 DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) const {
-  const auto posed = pose.empty() ? pose.end() : pose.find(index);
-  if (posed == pose.end()) return parent_from_node_[index];
-  const auto& [translation, scale, rotation, weights, visible] = posed->second;
-  if (!translation && !scale && !rotation) return parent_from_node_[index];
   const Model::Node& node = model_.nodes[index];
+  const auto posed = pose.empty() ? pose.end() : pose.find(index);
+  const auto& [translation, scale, rotation, weights, visible] =
+      posed != pose.end() ? posed->second : NodePose{};
+  if (node.matrix && !translation && !scale && !rotation) {
+    DMat4 result = *node.matrix;
+    for (int i = 0; i < 4; ++i)
+      result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns if the last row differs
+    return result;
+  }
   return composed(translation.value_or(node.translation),
                   rotation.value_or(unit_quaternion(node.rotation)), scale.value_or(node.scale));
 }
@@ -84,24 +80,27 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   // placed only below its parent.
   std::stable_partition(first.begin(), first.end(),
                         [this](std::size_t node) { return !parents_[node]; });
+  struct Open {
+    std::size_t node;
+    std::optional<std::size_t> parent;  // by its index in the result
+  };
   std::vector<bool> placed(parents_.size());
   std::vector<PlacedNode> result;
-  std::vector<PlacedNode> open;
-  for (std::size_t i = first.size(); i-- > 0;) {
-    open.push_back({first[i], world_from_asset * parent_from_node(first[i], pose),
-                    is_shown(asset, first[i], pose)});
-  }
+  result.reserve(parents_.size());
+  std::vector<Open> open;
+  for (std::size_t i = first.size(); i-- > 0;) open.push_back({first[i], std::nullopt});
   while (!open.empty()) {
-    const PlacedNode next = open.back();
+    const auto [node, parent] = open.back();
     open.pop_back();
-    if (placed[next.node]) continue;
-    placed[next.node] = true;
-    result.push_back(next);
-    const std::vector<std::size_t>& children = model_.nodes[next.node].children;
+    if (placed[node]) continue;
+    placed[node] = true;
+    const DMat4& world_from_parent = parent ? result[*parent].world_from_node : world_from_asset;
+    const bool is_parent_visible = !parent || result[*parent].visible;
+    result.push_back({node, world_from_parent * parent_from_node(node, pose),
+                      is_parent_visible && is_shown(asset, model_, node, pose)});
+    const std::vector<std::size_t>& children = model_.nodes[node].children;
     for (std::size_t i = children.size(); i-- > 0;) {
-      const std::size_t child = children[i];
-      open.push_back({child, next.world_from_node * parent_from_node(child, pose),
-                      next.visible && is_shown(asset, child, pose)});
+      open.push_back({children[i], result.size() - 1});
     }
   }
   return result;

@@ -52,12 +52,10 @@ class NodeTree {
 
  private:
   [[nodiscard]] std::vector<std::size_t> roots() const;
-  [[nodiscard]] DMat4 local(std::size_t node) const;
   [[nodiscard]] DMat4 parent_from_node(std::size_t node, const PosedNodes& pose) const;
 
   const Model& model_;
   std::vector<std::optional<std::size_t>> parents_;  // parent of each node; nothing for roots
-  std::vector<DMat4> parent_from_node_;
 };
 
 /// Returns at most `size` bytes from the start of UTF-8 text. Never splits a character.

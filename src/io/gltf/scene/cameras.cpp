@@ -26,9 +26,9 @@ std::optional<Pose> pose_of(const DMat4& world_from_node) {
 }
 
 Camera camera_of(const JsonValue& camera, const Pose& pose) {
-  const std::string& type = camera.find("type")->string;
+  const std::string& type = camera.find("type")->string();
   const JsonValue& projection = *camera.find(type);
-  const auto number = [&projection](const char* key) { return projection.find(key)->number; };
+  const auto number = [&projection](const char* key) { return projection.find(key)->number(); };
   if (type == "orthographic") {
     return OrthographicCamera{.pose = pose,
                               .height = 2 * std::abs(number("ymag")),
@@ -56,7 +56,7 @@ std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root, const
                  "has no valid position and orientation; the camera is left out");
       continue;
     }
-    const JsonValue& camera = root.find("cameras")->items[*index];
+    const JsonValue& camera = root.find("cameras")->items()[*index];
     const std::string own = name_of(camera);
     const bool named = !model.nodes[placed.node].name.empty() || own.empty();
     result.push_back({.name = named ? tree.name(placed.node) : head(own, 64),

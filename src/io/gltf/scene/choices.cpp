@@ -12,7 +12,7 @@ namespace {
 
 std::string name_or_empty(const JsonValue& value) {
   const JsonValue* name = value.find("name");
-  return name != nullptr ? name->string : std::string();
+  return name != nullptr ? name->string() : std::string();
 }
 
 /// The last time of an animation's keyframes, which glTF requires as the maximum of their accessor
@@ -22,13 +22,13 @@ double end_of(const Asset& asset, const JsonValue& animation) {
   const JsonValue* samplers = animation.find("samplers");
   if (samplers == nullptr) return end;
   const std::vector<JsonValue>& accessors = asset.array("accessors");
-  for (const JsonValue& sampler : samplers->items) {
+  for (const JsonValue& sampler : samplers->items()) {
     const JsonValue* input = sampler.find("input");
-    if (input == nullptr || !(input->number >= 0) ||
-        !(input->number < static_cast<double>(accessors.size())))
+    if (input == nullptr || !(input->number() >= 0) ||
+        !(input->number() < static_cast<double>(accessors.size())))
       continue;
-    const JsonValue* most = accessors[static_cast<std::size_t>(input->number)].find("max");
-    if (most != nullptr && !most->items.empty()) end = std::max(end, most->items[0].number);
+    const JsonValue* most = accessors[static_cast<std::size_t>(input->number())].find("max");
+    if (most != nullptr && !most->items().empty()) end = std::max(end, most->items()[0].number());
   }
   return end;
 }
@@ -39,7 +39,7 @@ SceneChoices choices_of(const Asset& asset) {
   SceneChoices choices;
   if (const std::optional<Element> root = extension(asset.root(), "KHR_materials_variants")) {
     if (const JsonValue* variants = root->value->find("variants")) {
-      for (const JsonValue& variant : variants->items)
+      for (const JsonValue& variant : variants->items())
         choices.variants.push_back(name_or_empty(variant));
     }
   }

@@ -28,7 +28,7 @@ struct Cone {
 Common common_of(const JsonValue& light) {
   Common result{.color = vector(light, "color", Vec3(1)),
                 .intensity = number(light, "intensity", 1)};
-  if (const JsonValue* range = light.find("range")) result.range = range->number;
+  if (const JsonValue* range = light.find("range")) result.range = range->number();
   return result;
 }
 
@@ -36,15 +36,15 @@ Cone cone_of(const JsonValue& light) {
   Cone result;
   const JsonValue* spot = light.find("spot");
   if (spot == nullptr) return result;
-  if (const JsonValue* inner = spot->find("innerConeAngle")) result.inner = inner->number;
-  if (const JsonValue* outer = spot->find("outerConeAngle")) result.outer = outer->number;
+  if (const JsonValue* inner = spot->find("innerConeAngle")) result.inner = inner->number();
+  if (const JsonValue* outer = spot->find("outerConeAngle")) result.outer = outer->number();
   return result;
 }
 
 /// Returns the light at its place in the world, or nothing if its position or direction is not
 /// valid.
 std::optional<Light> placed(const JsonValue& light, const DMat4& world_from_node) {
-  const std::string& type = light.find("type")->string;
+  const std::string& type = light.find("type")->string();
   const auto [color, intensity, range] = common_of(light);
   const DVec3 position(world_from_node[3]);
   const std::optional<DVec3> direction = normalized(-DVec3(world_from_node[2]));
@@ -81,7 +81,7 @@ std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Mod
     const auto reference = extension(asset.element("nodes", node.node), kExtensionName);
     if (!reference || !node.visible) continue;
     const Element light =
-        lights.item(index(asset, *reference, "light", lights.value->items.size()));
+        lights.item(index(asset, *reference, "light", lights.value->items().size()));
     std::optional<Light> in_world = placed(*light.value, node.world_from_node);
     if (!in_world) {
       asset.warn(reference->member("light"),
@@ -91,7 +91,7 @@ std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Mod
     const JsonValue* own = light.value->find("name");
     const bool named = !model.nodes[node.node].name.empty() || own == nullptr;
     result.push_back(
-        {.name = named ? tree.name(node.node) : head(own->string, 64), .light = *in_world});
+        {.name = named ? tree.name(node.node) : head(own->string(), 64), .light = *in_world});
   }
   make_names_unique(result);
   return result;

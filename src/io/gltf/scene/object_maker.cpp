@@ -81,14 +81,14 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
       vertices += times * (surface.mesh.positions.size() + 4 * segments);
       bytes += times * memory_of(surface.mesh);
     }
-    const Element mesh_of_node = asset_.element("nodes", placed.node).member("mesh");
+    const auto mesh_of_node = [&] { return asset_.element("nodes", placed.node).member("mesh"); };
     if (std::max(triangles, vertices) > kMaxElements)
-      asset_.fail(mesh_of_node,
+      asset_.fail(mesh_of_node(),
                   "brings the scene to more than 2^27 triangles or vertices, the limit",
                   ErrorKind::limit);
     if (primitives >= kNoPrimitive)
       asset_.fail(
-          mesh_of_node,
+          mesh_of_node(),
           "brings the scene to more than 2^32 - 2 triangles including those of instances, the "
           "limit",
           ErrorKind::limit);

@@ -21,14 +21,14 @@ class Checker {
   explicit Checker(Asset& asset) : asset_(asset) {}
 
   void object(const Element& at, std::span<const Rule> rules, Place place) {
-    require(at, at.value->kind == Kind::object, "must be an object");
+    require(at, at.value->kind() == Kind::object, "must be an object");
     for (const Rule& rule : rules) {
       if (rule.required && at.value->find(rule.key) == nullptr) {
         asset_.fail(at, "lacks the required property " + in_quotes(rule.key));
       }
     }
     std::vector<std::string> dropped;
-    for (const JsonMember& member : at.value->members) {
+    for (const JsonMember& member : at.value->members()) {
       const Element element{&member.value, child(at.pointer, member.key)};
       const auto rule = std::ranges::find(rules, member.key, &Rule::key);
       const bool is_known =
@@ -40,7 +40,7 @@ class Checker {
       } else if (member.key == "extensions") {
         extensions(element, place);
       } else if (member.key == "name") {
-        require(element, member.value.kind == Kind::string, "must be a string");
+        require(element, member.value.kind() == Kind::string, "must be a string");
       } else if (member.key != "extras") {
         asset_.warn(element, "is not a glTF 2.0 property of this object; it is ignored");
       }
@@ -56,7 +56,7 @@ class Checker {
   /// If the value is null, warns and returns true. glTF 2.0 forbids null, but some exporters write
   /// it for absent values.
   bool is_null(const Element& at) const {
-    if (at.value->kind != Kind::null) return false;
+    if (at.value->kind() != Kind::null) return false;
     asset_.tolerate(at, "is null, which glTF 2.0 forbids; it is treated as absent");
     return true;
   }
@@ -65,7 +65,7 @@ class Checker {
   bool property(const Element& at, const Rule& rule) {
     switch (rule.form) {
       case Form::boolean:
-        require(at, at.value->kind == Kind::boolean, "must be true or false");
+        require(at, at.value->kind() == Kind::boolean, "must be true or false");
         break;
       case Form::integer:
       case Form::number:
@@ -107,11 +107,11 @@ class Checker {
   }
 
   bool number(const Element& at, const Rule& rule) const {
-    const double number = at.value->number;
+    const double number = at.value->number();
     const bool integral = std::trunc(number) == number && std::abs(number) <= 0x1p53;
     const bool integer = rule.form == Form::integer;
     const std::string what = integer ? "must be an integer" : "must be a number";
-    if (at.value->kind != Kind::number || (integer && !integral)) asset_.fail(at, what);
+    if (at.value->kind() != Kind::number || (integer && !integral)) asset_.fail(at, what);
     if (number < rule.min || number > rule.max || (rule.above_min && number == rule.min)) {
       return repaired(at, rule, what + range_of(rule) + ", is " + text_of(number));
     }
@@ -129,7 +129,7 @@ class Checker {
       case Repair::clamp: {
         asset_.tolerate(at, message + "; the nearest number in range is used");
         const double least = rule.above_min ? std::nextafter(rule.min, rule.min + 1) : rule.min;
-        asset_.set(at, std::clamp(at.value->number, least, rule.max));
+        asset_.set(at, std::clamp(at.value->number(), least, rule.max));
         return true;
       }
       case Repair::drop:
@@ -143,8 +143,8 @@ class Checker {
   }
 
   bool string(const Element& at, const Rule& rule) const {
-    const std::string& string = at.value->string;
-    require(at, at.value->kind == Kind::string, "must be a string");
+    const std::string& string = at.value->string();
+    require(at, at.value->kind() == Kind::string, "must be a string");
     if (rule.strings.empty() || std::ranges::find(rule.strings, string) != rule.strings.end()) {
       return true;
     }
@@ -160,10 +160,10 @@ class Checker {
   }
 
   void index(const Element& at, const Rule& rule) {
-    const double number = at.value->number;
+    const double number = at.value->number();
     const bool in_extension = rule.target.starts_with('/');
     const std::string array = (in_extension ? "" : "/") + std::string(rule.target);
-    if (at.value->kind != Kind::number || std::trunc(number) != number || number < 0) {
+    if (at.value->kind() != Kind::number || std::trunc(number) != number || number < 0) {
       asset_.fail(at, "must be an integer of at least 0, an index into " + array);
     }
     const JsonValue* items = asset_.find(array);
@@ -173,7 +173,7 @@ class Checker {
       lacks_other_part_ = true;
       return;
     }
-    const std::size_t size = items != nullptr ? items->items.size() : 0;
+    const std::size_t size = items != nullptr ? items->items().size() : 0;
     if (number >= static_cast<double>(size)) {
       asset_.fail(at, "is " + text_of(number) + ", but " + array + " has only " +
                           std::to_string(size) + " items, counted from 0");
@@ -182,8 +182,8 @@ class Checker {
 
   template <typename CheckItem>
   void array(const Element& at, const Rule& rule, CheckItem&& check) {
-    require(at, at.value->kind == Kind::array, "must be an array");
-    const std::size_t size = at.value->items.size();
+    require(at, at.value->kind() == Kind::array, "must be an array");
+    const std::size_t size = at.value->items().size();
     if (size < rule.fewest || size > rule.most) {
       asset_.fail(at, "must have " + std::string(size < rule.fewest ? "at least " : "at most ") +
                           std::to_string(size < rule.fewest ? rule.fewest : rule.most) +
@@ -194,9 +194,11 @@ class Checker {
   }
 
   template <typename Key>
-  void different(const Element& at, Key JsonValue::*key) const {
-    std::vector<std::pair<Key, std::size_t>> sorted;
-    for (const JsonValue& item : at.value->items) sorted.emplace_back(item.*key, sorted.size());
+  void different(const Element& at, Key (JsonValue::*key)() const) const {
+    std::vector<std::pair<std::decay_t<Key>, std::size_t>> sorted;
+    for (const JsonValue& item : at.value->items()) {
+      sorted.emplace_back((item.*key)(), sorted.size());
+    }
     std::ranges::sort(sorted);
     for (std::size_t i = 1; i < sorted.size(); ++i) {
       if (sorted[i].first == sorted[i - 1].first) {
@@ -213,13 +215,13 @@ class Checker {
   }
 
   void attributes(const Element& at, const Rule& rule) {
-    require(at, at.value->kind == Kind::object, "must be an object");
-    if (at.value->members.empty() && rule.form != Form::attributes) {
+    require(at, at.value->kind() == Kind::object, "must be an object");
+    if (at.value->members().empty() && rule.form != Form::attributes) {
       asset_.tolerate(at, "is empty, which glTF 2.0 forbids");
     }
     const bool of_instances = rule.form == Form::instance_attributes;
     std::vector<std::string> dropped;
-    for (const JsonMember& member : at.value->members) {
+    for (const JsonMember& member : at.value->members()) {
       const Element attribute{&member.value, child(at.pointer, member.key)};
       const bool has_name =
           of_instances ? is_instance_attribute_name(member.key) : is_attribute_name(member.key);
@@ -243,15 +245,15 @@ class Checker {
   }
 
   void extensions(const Element& at, Place place) {
-    require(at, at.value->kind == Kind::object, "must be an object");
+    require(at, at.value->kind() == Kind::object, "must be an object");
     std::vector<std::string> dropped;
-    for (const JsonMember& member : at.value->members) {
+    for (const JsonMember& member : at.value->members()) {
       const Element extension{&member.value, child(at.pointer, member.key)};
       if (is_null(extension)) {
         dropped.push_back(member.key);
         continue;
       }
-      require(extension, member.value.kind == Kind::object, "must be an object");
+      require(extension, member.value.kind() == Kind::object, "must be an object");
       if (!this->extension(extension, member.key, place)) dropped.push_back(member.key);
     }
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});

@@ -17,7 +17,7 @@ class Checker {
     const Model::BufferView& view = model_.buffer_views[index];
     const Element at = asset_.element("bufferViews", index);
     const auto length = static_cast<Size>(
-        asset_.element("buffers", view.buffer).member("byteLength").value->number);
+        asset_.element("buffers", view.buffer).member("byteLength").value->number());
     const Size end = Size{view.offset} + view.length;
     if (end > length) {
       asset_.fail(at, "ends at byte " + std::to_string(end) + " of a buffer of " +

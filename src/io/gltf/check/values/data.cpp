@@ -127,8 +127,8 @@ class DataCheck {
   void same(const char* key, const std::array<double, kMaxComponents>& found, bool is_float) const {
     const JsonValue* given = at_.value->find(key);
     if (given == nullptr) return;
-    for (std::size_t k = 0; k < given->items.size(); ++k) {
-      const double number = given->items[k].number;
+    for (std::size_t k = 0; k < given->items().size(); ++k) {
+      const double number = given->items()[k].number();
       const double rounded = is_float ? static_cast<double>(static_cast<float>(number)) : number;
       if (rounded != found[k]) {
         asset_.tolerate(at_.member(key),
@@ -231,7 +231,7 @@ class IndexCheck {
     const JsonValue* indices = primitive.find("indices");
     const JsonValue& attributes = *primitive.find("attributes");
     if (indices == nullptr || attributes.find("POSITION") != nullptr) return;
-    const auto accessor = static_cast<std::size_t>(indices->number);
+    const auto accessor = static_cast<std::size_t>(indices->number());
     const std::size_t count = vertex_count(attributes);
     const std::optional<double> vertex = greatest(accessor);
     if (!vertex || *vertex < static_cast<double>(count)) return;
@@ -242,8 +242,8 @@ class IndexCheck {
 
  private:
   [[nodiscard]] std::size_t vertex_count(const JsonValue& attributes) const {
-    if (attributes.members.empty()) return 0;
-    return model_.accessors[static_cast<std::size_t>(attributes.members[0].value.number)].count;
+    if (attributes.members().empty()) return 0;
+    return model_.accessors[static_cast<std::size_t>(attributes.members()[0].value.number())].count;
   }
 
   /// Returns the greatest index in an accessor. Nothing if Elements::of can't read the accessor.
@@ -292,7 +292,7 @@ void check_data(Asset& asset, const Model& model, const BufferViews& views) {
   }
   IndexCheck indices(asset, model, views);
   for (const JsonValue& mesh : asset.array("meshes")) {
-    for (const JsonValue& primitive : mesh.find("primitives")->items) indices.primitive(primitive);
+    for (const JsonValue& each : mesh.find("primitives")->items()) indices.primitive(each);
   }
   check_influences(asset, model, views);
 }

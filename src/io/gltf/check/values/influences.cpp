@@ -18,9 +18,9 @@ std::vector<std::size_t> joint_counts(const Asset& asset) {
   for (const JsonValue& node : asset.array("nodes")) {
     const JsonValue *mesh = node.find("mesh"), *skin = node.find("skin");
     if (mesh == nullptr || skin == nullptr) continue;
-    const JsonValue& json = asset.array("skins")[static_cast<std::size_t>(skin->number)];
-    std::size_t& least = result[static_cast<std::size_t>(mesh->number)];
-    least = std::min(least, json.find("joints")->items.size());
+    const JsonValue& json = asset.array("skins")[static_cast<std::size_t>(skin->number())];
+    std::size_t& least = result[static_cast<std::size_t>(mesh->number())];
+    least = std::min(least, json.find("joints")->items().size());
   }
   return result;
 }
@@ -37,7 +37,7 @@ class InfluenceCheck {
       const JsonValue* joints = attributes.value->find("JOINTS_" + number);
       const JsonValue* weights = attributes.value->find("WEIGHTS_" + number);
       if (joints == nullptr || weights == nullptr) break;
-      const auto index = static_cast<std::size_t>(joints->number);
+      const auto index = static_cast<std::size_t>(joints->number());
       vertices_ += model_.accessors[index].count;
       if (vertices_ > kMaxElements) {
         asset_.fail(attributes, "brings the asset to more than 2^27 skinned vertices",
@@ -54,7 +54,7 @@ class InfluenceCheck {
 
  private:
   [[nodiscard]] std::optional<Elements> elements(const JsonValue& index) const {
-    return Elements::of(asset_, model_, views_, static_cast<std::size_t>(index.number));
+    return Elements::of(asset_, model_, views_, static_cast<std::size_t>(index.number()));
   }
 
   static std::size_t joint(const Elements& joints, std::size_t vertex, std::size_t k) {
@@ -139,7 +139,7 @@ void check_influences(Asset& asset, const Model& model, const BufferViews& views
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == kNone) continue;
     const Element primitives = asset.element("meshes", i).member("primitives");
-    for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
+    for (std::size_t k = 0; k < primitives.value->items().size(); ++k) {
       check.primitive(primitives.item(k).member("attributes"), counts[i]);
     }
   }

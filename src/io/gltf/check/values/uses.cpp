@@ -12,8 +12,8 @@ class UseCollector {
 
   std::vector<AccessorUses> collect() && {
     for (const JsonValue& mesh : asset_.array("meshes")) {
-      for (const JsonValue& primitive : mesh.find("primitives")->items) {
-        for (const JsonMember& member : primitive.find("attributes")->members) {
+      for (const JsonValue& primitive : mesh.find("primitives")->items()) {
+        for (const JsonMember& member : primitive.find("attributes")->members()) {
           attribute(member);
         }
       }
@@ -28,7 +28,9 @@ class UseCollector {
   }
 
  private:
-  AccessorUses& of(const JsonValue& index) { return uses_[static_cast<std::size_t>(index.number)]; }
+  AccessorUses& of(const JsonValue& index) {
+    return uses_[static_cast<std::size_t>(index.number())];
+  }
 
   void attribute(const JsonMember& member) {
     AccessorUses& uses = of(member.value);
@@ -38,16 +40,16 @@ class UseCollector {
   }
 
   void animation(const JsonValue& animation) {
-    const std::vector<JsonValue>& samplers = animation.find("samplers")->items;
+    const std::vector<JsonValue>& samplers = animation.find("samplers")->items();
     for (const JsonValue& sampler : samplers) of(*sampler.find("input")).times = true;
-    for (const JsonValue& channel : animation.find("channels")->items) {
-      if (channel.find("target")->find("path")->string != "rotation") continue;
+    for (const JsonValue& channel : animation.find("channels")->items()) {
+      if (channel.find("target")->find("path")->string() != "rotation") continue;
       const JsonValue& sampler =
-          samplers[static_cast<std::size_t>(channel.find("sampler")->number)];
+          samplers[static_cast<std::size_t>(channel.find("sampler")->number())];
       const JsonValue* interpolation = sampler.find("interpolation");
       AccessorUses& uses = of(*sampler.find("output"));
       uses.quaternions = true;
-      uses.spline = interpolation != nullptr && interpolation->string == "CUBICSPLINE";
+      uses.spline = interpolation != nullptr && interpolation->string() == "CUBICSPLINE";
     }
   }
 

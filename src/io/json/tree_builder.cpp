@@ -1,0 +1,285 @@
+#include "io/json/tree_builder.hpp"
+
+#include "base/memory_account.hpp"
+#include "base/printable.hpp"
+#include "io/json/members.hpp"
+#include "io/json/syntax.hpp"
+#include "io/json/token.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace microtrace::io {
+namespace {
+
+/// Builds the tree from nlohmann-json's events, which have no positions. Between two events there
+/// are only white space and at most one comma or colon. The start of each token therefore follows
+/// from the end of the previous one.
+class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  TreeBuilder(const JsonDocument& document, std::string_view text, JsonValue& root,
+              std::size_t max_values, RepeatedKeys policy, OutdoneKeys& outdone_keys)
+      : document_(document),
+        text_(text),
+        root_(root),
+        max_values_(max_values),
+        policy_(policy),
+        outdone_keys_(outdone_keys),
+        end_(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0) {}
+
+  bool null() override { return scalar(JsonValue(), 4); }
+  bool boolean(bool value) override { return scalar(JsonValue(value), value ? 4 : 5); }
+
+  bool number_integer(number_integer_t value) override {
+    return number(static_cast<double>(value));
+  }
+
+  bool number_unsigned(number_unsigned_t value) override {
+    return number(static_cast<double>(value));
+  }
+
+  bool number_float(number_float_t value, const string_t& /*token*/) override {
+    return number(value);
+  }
+
+  bool string(string_t& value) override {
+    const std::size_t start = next_token().token;
+    if (value.size() > kLongString) take_memory(2 * value.size(), "the strings of JSON");
+    return scalar(JsonValue(std::string(value)), string_end(text_, start) - start);
+  }
+
+  bool binary(binary_t& /*value*/) override { return false; }  // never called for JSON texts
+  bool start_object(std::size_t /*size*/) override { return open(JsonValue::Kind::object); }
+  bool start_array(std::size_t /*size*/) override { return open(JsonValue::Kind::array); }
+
+  bool end_object() override {
+    std::vector<JsonMember> members = taken(members_, open_.back().first_member);
+    make_keys_unique(members);
+    return close(JsonValue(std::move(members)));
+  }
+
+  bool end_array() override { return close(JsonValue(taken(items_, open_.back().first_item))); }
+
+  bool key(string_t& name) override {
+    const std::size_t start = next_token().token;
+    members_.push_back({.key = name, .value = {}});
+    members_.back().value.key_offset = static_cast<std::uint32_t>(start);
+    end_ = string_end(text_, start);
+    last_ = Last::key;
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string& /*token*/,
+                   const nlohmann::detail::exception& error) override {
+    SyntaxContext context = next_token();
+    context.read = std::min(position, text_.size());
+    if (error.id == 406) {
+      fail(ErrorKind::invalid_scene, context.token,
+           "the number is out of range; the largest is about 1.8e308");
+    }
+    // what() has the form "... syntax error while parsing value - REASON; last read: ...".
+    std::string_view reason = error.what();
+    reason.remove_prefix(std::min(reason.find(" - ") + 3, reason.size()));
+    reason = reason.substr(0, reason.find("; last read"));
+    fail(explain(text_, context, reason));
+  }
+
+  /// Throws Error if anything follows the root value, because the parser stops at a zero byte.
+  void require_end() const {
+    const SyntaxContext context = next_token();
+    if (context.token != text_.size()) fail(explain_misplaced(text_, context));
+  }
+
+ private:
+  /// Memory is counted in blocks of this many values. A value may be a member with a key and have a
+  /// box with one value of its own.
+  static constexpr std::size_t kBlock = 1024, kBytesOfValue = 4 * sizeof(JsonValue);
+  static constexpr std::size_t kLongString = 256;
+
+  enum class Last { open, key, value };
+
+  /// An array or object whose end has not been read.
+  struct Open {
+    JsonValue::Kind kind;
+    std::size_t offset;
+    std::size_t first_item, first_member;  ///< of its own among all that are open
+  };
+
+  /// Returns the elements from `first` on and removes them.
+  template <class T>
+  static std::vector<T> taken(std::vector<T>& all, std::size_t first) {
+    const auto from = all.begin() + static_cast<std::ptrdiff_t>(first);
+    std::vector<T> result(std::make_move_iterator(from), std::make_move_iterator(all.end()));
+    all.erase(from, all.end());
+    return result;
+  }
+
+  [[nodiscard]] std::size_t skip_whitespace(std::size_t offset) const {
+    return std::min(text_.find_first_not_of(kWhitespace, offset), text_.size());
+  }
+
+  /// Returns the position of the next token, and the tokens allowed there.
+  [[nodiscard]] SyntaxContext next_token() const {
+    using Expects = SyntaxContext::Expects;
+    SyntaxContext context{
+        .in_object = !open_.empty() && open_.back().kind == JsonValue::Kind::object,
+        .token = skip_whitespace(end_)};
+    const std::string_view rest = text_.substr(context.token);
+    if (last_ == Last::key) {
+      context.expects = rest.starts_with(':') ? Expects::value : Expects::colon;
+      if (rest.starts_with(':')) context.token = skip_whitespace(context.token + 1);
+    } else if (open_.empty()) {
+      context.expects = last_ == Last::open ? Expects::value : Expects::end_of_document;
+    } else if (last_ == Last::open) {
+      context.expects = context.in_object ? Expects::key_or_end : Expects::value_or_end;
+    } else if (rest.starts_with(',')) {
+      context.expects = context.in_object ? Expects::key : Expects::value;
+      context.comma = std::exchange(context.token, skip_whitespace(context.token + 1));
+    } else {
+      context.expects = Expects::comma_or_end;
+    }
+    return context;
+  }
+
+  void count(std::size_t offset) {
+    if (++count_ > max_values_) {
+      fail(ErrorKind::limit, offset,
+           std::string("the text has more values than ")
+               .append(std::to_string(max_values_))
+               .append(", the limit"));
+    }
+    if (count_ % kBlock == 1) take_memory(kBlock * kBytesOfValue, "the values of JSON");
+  }
+
+  /// Adds a value to the innermost open one.
+  bool add(JsonValue value, std::size_t offset) {
+    value.offset = static_cast<std::uint32_t>(offset);
+    last_ = Last::value;
+    if (open_.empty()) {
+      root_ = std::move(value);
+    } else if (open_.back().kind == JsonValue::Kind::array) {
+      items_.push_back(std::move(value));
+    } else {
+      JsonValue& member = members_.back().value;
+      value.key_offset = member.key_offset;
+      member = std::move(value);
+    }
+    return true;
+  }
+
+  bool scalar(JsonValue value, std::size_t length) {
+    const std::size_t start = next_token().token;
+    end_ = start + length;
+    count(start);
+    return add(std::move(value), start);
+  }
+
+  bool number(double value) {
+    const std::size_t start = next_token().token;
+    // nlohmann's lexer reads -0 as the integer 0.
+    return scalar(JsonValue(text_[start] == '-' ? -std::abs(value) : value),
+                  number_end(text_, start) - start);
+  }
+
+  bool open(JsonValue::Kind kind) {
+    const std::size_t start = next_token().token;
+    if (open_.size() == kMaxJsonDepth) {
+      // The error has no JSON pointer, because at this depth the pointer would be extremely long.
+      throw Error(ErrorKind::limit,
+                  document_.at(start, "", "arrays and objects are nested more than 256 deep"));
+    }
+    count(start);
+    open_.push_back({kind, start, items_.size(), members_.size()});
+    end_ = start + 1;
+    last_ = Last::open;
+    return true;
+  }
+
+  bool close(JsonValue value) {
+    end_ = next_token().token + 1;
+    const std::size_t offset = open_.back().offset;
+    open_.pop_back();
+    return add(std::move(value), offset);
+  }
+
+  void make_keys_unique(std::vector<JsonMember>& members) {
+    const RepeatedMembers repeated = repeated_members(members);
+    const std::vector<std::size_t>& outdone = repeated.outdone;
+    if (outdone.empty()) return;
+    if (policy_ == RepeatedKeys::are_refused) {
+      fail({repeated.first, "the key " + in_quotes(repeated.key) + " occurs twice in this object"});
+    }
+    note_outdone(members, outdone);
+    std::erase_if(members, [&](const JsonMember& member) {
+      return std::binary_search(outdone.begin(), outdone.end(), member.value.key_offset);
+    });
+  }
+
+  /// Records an object's duplicate keys. Makes a pointer, which may be as long as the text, only
+  /// for the first duplicate known so far. An enclosing object ends later but may have an earlier
+  /// one.
+  void note_outdone(const std::vector<JsonMember>& members,
+                    const std::vector<std::size_t>& offsets) {
+    const bool is_first = outdone_keys_.count == 0 || offsets.front() < outdone_keys_.offset;
+    outdone_keys_.count += offsets.size();
+    if (!is_first) return;
+    const auto first = std::ranges::find(members, offsets.front(),
+                                         [](const JsonMember& m) { return m.value.key_offset; });
+    outdone_keys_.offset = offsets.front();
+    outdone_keys_.pointer = child(pointer(), first->key);
+  }
+
+  /// Returns the pointer to the innermost open value, or to the member whose key was read last.
+  [[nodiscard]] std::string pointer() const {
+    std::string out;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      const bool is_innermost = i + 1 == open_.size();
+      const std::size_t items = is_innermost ? items_.size() : open_[i + 1].first_item;
+      const std::size_t members = is_innermost ? members_.size() : open_[i + 1].first_member;
+      if (open_[i].kind == JsonValue::Kind::array) {
+        if (!is_innermost) out = child(out, items - open_[i].first_item);
+      } else if (!is_innermost || last_ == Last::key) {
+        out = child(out, members_[members - 1].key);
+      }
+    }
+    return out;
+  }
+
+  [[noreturn]] void fail(ErrorKind kind, std::size_t offset, std::string message) const {
+    throw Error(kind, document_.at(offset, pointer(), std::move(message)));
+  }
+
+  [[noreturn]] void fail(SyntaxError error) const {
+    fail(ErrorKind::invalid_scene, error.offset, std::move(error.message));
+  }
+
+  const JsonDocument& document_;
+  std::string_view text_;
+  JsonValue& root_;
+  std::size_t max_values_;
+  RepeatedKeys policy_;
+  OutdoneKeys& outdone_keys_;
+  std::vector<Open> open_;           // from the root to the innermost
+  std::vector<JsonValue> items_;     // of all open arrays
+  std::vector<JsonMember> members_;  // of all open objects
+  std::size_t end_ = 0;              // end of the last token
+  Last last_ = Last::open;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+void build_tree(const JsonDocument& document, std::string_view text, JsonValue& root,
+                std::size_t max_values, RepeatedKeys policy, OutdoneKeys& outdone_keys) {
+  TreeBuilder builder(document, text, root, max_values, policy, outdone_keys);
+  nlohmann::json::sax_parse(text.data(), text.data() + text.size(), &builder);
+  builder.require_end();
+}
+
+}  // namespace microtrace::io
