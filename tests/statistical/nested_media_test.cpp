@@ -26,12 +26,13 @@ struct Layers {
          .shape = Plane{.point = {0, y, 0}, .normal = {0, faces_up ? 1.0F : -1.0F, 0}},
          .material = material});
   }
-  /// The radiance that arrives without reflection at a boundary.
-  [[nodiscard]] double seen(std::uint32_t boundaries) const {
+  /// The radiance that arrives after this number of boundaries, at most.
+  [[nodiscard]] DVec3 color(std::uint32_t boundaries) const {
     const OrthographicCamera camera{
         .pose = {.position = {0, 9, 0}, .direction = {0, -1, 0}, .up = {0, 0, -1}}, .height = 0.01};
-    return mean_of(shoot(scene, camera, {.samples = 512, .max_depth = boundaries + 1})).y;
+    return mean_of(shoot(scene, camera, {.samples = 512, .max_depth = boundaries + 1}));
   }
+  [[nodiscard]] double seen(std::uint32_t boundaries) const { return color(boundaries).y; }
   Scene scene;
 };
 
@@ -97,6 +98,48 @@ TEST(NestedMedia, HiddenBoundariesLetShadowRaysPass) {
   const double expected = transmitted(1, 1.5) * transmitted(1.5, 1.33) *
                           std::pow(0.9, 5 + distance) * 0.5 / kPi * 100 * std::sqrt(0.5) / 8;
   EXPECT_NEAR(layers.seen(3), expected, 0.01 * expected);
+}
+
+// A facet of dispersive glass inside a denser glass, tilted by 53 degrees. By Snell's law, only red
+// is totally reflected, to an emissive wall. Green and blue reach the floor, which is black.
+TEST(NestedMedia, TotalReflectionDependsOnTheColor) {
+  Layers layers;
+  layers.scene.materials.push_back(layers.scene.materials[0]);
+  layers.scene.materials[0].emissive = Vec3(0);
+  layers.scene.objects.push_back(
+      {.name = "wall", .shape = Plane{.point = {4, 0, 0}, .normal = {-1, 0, 0}}, .material = 1});
+  for (Material m : {medium(1.8F, 1), medium(1.5F, 1)}) {
+    m.specular = Specular{.factor = 0};
+    layers.scene.materials.push_back(m);
+  }
+  layers.scene.materials[3].dispersion = 10;
+  layers.add(7, true, 2);
+  const double tilt = 53 * kPi / 180;
+  layers.scene.objects.push_back(
+      {.name = "facet",
+       .shape = Plane{.point = {0, 5, 0}, .normal = Vec3(std::sin(tilt), std::cos(tilt), 0)},
+       .material = 3});
+  const DVec3 seen = layers.color(2);
+  for (int c = 0; c < 3; ++c) {
+    const double ior = 1.5 + (c - 1) * (1.5 - 1) * 0.025 * 10;
+    const bool is_total = 1.8 * std::sin(tilt) > ior;
+    EXPECT_EQ(is_total, c == 0);
+    EXPECT_NEAR(seen[c], is_total ? 1 : 0, 0.006) << c;
+  }
+}
+
+// Dispersive glass in a denser glass, with total reflection at grazing angles, loses no light in
+// any color.
+TEST(NestedMedia, DispersiveBodyVanishesInTheFurnace) {
+  Scene scene = ball_under_sky(medium(1.8F, 1));
+  scene.materials.push_back(medium(1.5F, 1));
+  scene.materials[1].dispersion = 10;
+  scene.objects.push_back({.name = "inner", .shape = Sphere{{0, 0, 0}, 0.6F}, .material = 1});
+  OrthographicCamera camera = kAcrossBall;
+  camera.height = 1.35F;
+  const DVec3 light = mean_of(shoot(
+      scene, camera, {.size = {.width = 32, .height = 32}, .samples = 256, .max_depth = 128}));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], 1, 0.01) << c;
 }
 
 // Two bodies of the same glass that overlap are one body.

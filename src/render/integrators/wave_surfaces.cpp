@@ -13,6 +13,22 @@
 #include <utility>
 
 namespace microtrace {
+namespace {
+
+/// True if the surface of a body reflects all light of some color channel from some directions,
+/// because its index of refraction is lower behind the surface. `outside` is the medium around the
+/// body; null for a vacuum.
+bool may_reflect_totally(const ShadingPoint& point, const Medium* outside) {
+  const Medium& inside = point.look->medium;
+  for (int channel = 0; channel < 3; ++channel) {
+    const float within = inside.ior_of(channel);
+    const float around = outside == nullptr ? 1 : outside->ior_of(channel);
+    if (point.at.front ? within < around : within > around) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 Lanes Wave::meet_surfaces(std::size_t first) {
   VertexGroup& group = vertices_.group();
@@ -193,15 +209,20 @@ void Wave::put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoin
   put_surface(group.surface, lane, input.parameters);
   if (input.features.index() == 0) return;
   put_extensions(group.surface, lane, input.parameters, input.layers);
-  const auto path_channel = static_cast<int>(paths_->channel[i]);
+  group.channel[lane] = static_cast<std::uint32_t>(channel);
   Vec3 through(1);
-  if (path_channel != channel) {
+  if (paths_->channel[i] != group.channel[lane]) {
     // A dispersive surface reduces the path to one channel.
-    through = Vec3(0);
-    through[channel] = 3;
+    Vec3 only(0);
+    only[channel] = 3;
+    if (may_reflect_totally(point, beyond.outside)) {
+      put_vector(paths_->throughput, i, vector_of(paths_->throughput, i) * only);
+      paths_->channel[i] = group.channel[lane];
+    } else {
+      through = only;
+    }
   }
   put(group.through_weight, lane, through);
-  group.channel[lane] = static_cast<std::uint32_t>(channel);
   group.media[lane] = NestedMediaTable::number_of(beyond.media);
 }
 
