@@ -92,6 +92,10 @@ class Wave {
   /// empty if no light arrives.
   [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
                                    std::uint32_t layer);
+  /// The radiance that the surface emits toward path i. Except for camera rays, emission and
+  /// coverage are looked up without a filter, as for light samples and shadow rays, because both
+  /// must estimate the same light.
+  [[nodiscard]] Vec3 emission(std::size_t i, const ShadingPoint& point) const;
   /// Adds the light that the surface emits toward path i.
   void add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point);
   /// Adds the light of the environment that the paths in these lanes reach.

@@ -26,7 +26,9 @@ void Wave::find_blocked() {
 }
 
 bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t layer) const {
-  const float coverage = shading_->coverage(point, paths_->pdf[i] == 0);
+  const bool from_camera = paths_->pdf[i] == 0;
+  if (!from_camera && point.look->is_opaque) return true;
+  const float coverage = shading_->coverage(from_camera ? point : point.unfiltered(), from_camera);
   if (coverage == 0 || coverage == 1) return coverage == 1;
   return paths_->sobol(i).one(step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs) <
          coverage;
@@ -57,7 +59,7 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
       if (!hit) return {.is_open = is_sky_lit()};
     } while (!stops(i, point, layer));
   }
-  if (!point.look->shines() || shading_->emission(point) == Vec3(0)) return {};
+  if (!point.look->shines() || emission(i, point) == Vec3(0)) return {};
   return {.hit = hit, .point = point};
 }
 

@@ -13,8 +13,13 @@
 
 namespace microtrace {
 
+Vec3 Wave::emission(std::size_t i, const ShadingPoint& point) const {
+  if (!point.look->shines() && !point.look->material->unlit) return Vec3(0);
+  return shading_->emission(paths_->pdf[i] == 0 ? point : point.unfiltered());
+}
+
 void Wave::add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point) {
-  const Vec3 emission = shading_->emission(point);
+  const Vec3 emission = this->emission(i, point);
   if (emission == Vec3(0)) return;
   const PathColumns& paths = *paths_;
   float weight = 1;

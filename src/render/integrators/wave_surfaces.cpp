@@ -117,7 +117,7 @@ Lanes Wave::add_simple(std::size_t first) {
 
 Lanes Wave::add_varying(Lanes lanes) {
   VertexGroup& group = vertices_.group();
-  Shading::look_up(group.hits, lanes, group.width, texels_);
+  Shading::look_up(group.hits, lanes, group.width, step_.depth == 1, texels_);
   for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto k = static_cast<std::size_t>(lane);

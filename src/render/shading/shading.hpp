@@ -106,6 +106,9 @@ struct ShadingPoint {
   float width = 0;  ///< footprint width in world space
   /// The texel address that slots share, if it has been computed.
   std::optional<TextureMap::TexelAddress> texel_address{};
+
+  /// The point with a footprint of width 0.
+  [[nodiscard]] ShadingPoint unfiltered() const { return {.at = at, .look = look}; }
 };
 
 /// True if the back of the material is visible, from behind or from inside its medium.
@@ -138,9 +141,10 @@ class Shading {
   [[nodiscard]] ShadingPoint point(const HitGroup& group, int lane, const Ray& ray,
                                    const Hit& hit) const;
   /// Looks up the textures of lanes whose materials have constant_but_textures. `widths` are the
-  /// footprints' widths in world space.
+  /// footprints' widths in world space. Except for camera rays, emission and alpha are those of
+  /// ShadingPoint::unfiltered().
   static void look_up(const HitGroup& group, Lanes lanes, const LaneFloats& widths,
-                      FrequentTexels& texels);
+                      bool from_camera, FrequentTexels& texels);
 
   /// A point on a mesh triangle without a ray, for evaluating emission. For other shapes, on which
   /// emission is constant, only the side is set.
