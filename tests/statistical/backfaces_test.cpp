@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -259,6 +261,42 @@ TEST(Backfaces, GlassIsTheSame) {
     model.camera.pose.position.y = 3;
     model.camera.height = 2;
     expect_same(model.scene, model.camera);
+  }
+}
+
+// Where the texture is 0, a surface with transmission is opaque. Where it is 1, it is glass.
+TEST(Backfaces, TransmissionTexturesSelectOpaqueParts) {
+  const auto pixels = [](Model model, const Material& material, Backfaces backfaces) {
+    model.scene.materials[kMatt] = material;
+    const Shot shot{.samples = 8, .max_depth = 8, .backfaces = backfaces};
+    return pixels_of(shoot(model.scene, model.camera, shot));
+  };
+  Model room;
+  room.scene.objects.clear();
+  room.scene.environment = Environment{.content = Studio{}};
+  room.add(box({0, 1, 0}, Vec3(2), true), kMatt);
+  room.add(box({0.5F, 0, 0}, {0.2F, 0.5F, 0.2F}, false), kMatt);
+  room.add_light(DirectionalLight{.direction = {0.6, -0.8, 0}, .intensity = 10});
+  Model shadow;
+  shadow.add(box({0, 2, 0}, Vec3(0.5F), false), kMatt);
+  shadow.camera.pose.position.y = 1.2;
+  shadow.add_light(DirectionalLight{.direction = {0, -1, 0}, .intensity = 3});
+  Model interior = shadow;  // of a box that is closed from outside
+  interior.add(box({0, 0, 0}, Vec3(3), false), kMatt);
+  for (Model model : {room, shadow, interior}) {
+    for (const bool is_glass : {false, true}) {
+      const std::uint8_t gray = is_glass ? 255 : 0;
+      model.scene.images = {std::make_shared<const Image>(
+          Image{.width = 1, .height = 1, .channels = 1, .samples = std::vector{gray}})};
+      model.scene.textures = {{.image = 0}};
+      Material plain = model.scene.materials[kMatt];
+      Material textured = plain;
+      if (is_glass) plain.transmission = Transmission{.factor = 1};
+      textured.transmission = Transmission{.factor = 1, .texture = TextureUse{}};
+      for (const Backfaces backfaces : {Backfaces::pass, Backfaces::occlude}) {
+        EXPECT_EQ(pixels(model, textured, backfaces), pixels(model, plain, backfaces)) << is_glass;
+      }
+    }
   }
 }
 

@@ -49,7 +49,7 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
   const auto is_sky_lit = [&] {
     return lighting_->environment(unit<1>(vector_of(paths_->d, i))) != Vec3(0);
   };
-  if (layer == 0 && knows_blocked() && blockers_[i] == kNoPrimitive)
+  if (layer == 0 && point.look->has_open_back && knows_blocked() && blockers_[i] == kNoPrimitive)
     return {.is_open = is_sky_lit()};
   std::optional<Hit> hit = first;
   while (Shading::lets_light_in(point)) {

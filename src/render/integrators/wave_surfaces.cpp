@@ -168,7 +168,8 @@ bool Wave::step_slowly(std::size_t first, int lane) {
     hit = next(i, *hit, point);
   if (paths.media[i] != 0 && !cross_medium(i, ray, hit, point.at.distance)) return true;
   if (!hit) return false;
-  if (looks_behind() && Shading::lets_light_in(point) && (layer > 0 || may_get_light(i))) {
+  if (looks_behind() && Shading::lets_light_in(point) &&
+      (layer > 0 || !point.look->has_open_back || may_get_light(i))) {
     const Behind behind = look_behind(i, *hit, point, layer);
     const NestedMedia* media = media_.at(paths.media[i]);
     // No light arrives from infinitely far away through a medium that scatters.

@@ -35,8 +35,9 @@ bool transmits(const Material& m) {
   return m.transmission && m.transmission->factor > 0;
 }
 
-/// True if light passes the back regardless of options. A path that enters and leaves one-sided
-/// thin glass crosses one wall instead of two, just as camera rays do.
+/// True if light passes the back regardless of options, except where a texture makes the surface
+/// opaque. A path that enters and leaves one-sided thin glass crosses one wall instead of two, just
+/// as camera rays do.
 bool is_thin_glass(const Material& m) {
   return transmits(m) && !has_back(m);
 }
@@ -72,8 +73,11 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
     look.has_constant_emission = look[MaterialTexture::emissive].map == nullptr &&
                                  material.alpha_mode == AlphaMode::opaque && !material.unlit;
-    look.has_open_back = !has_back(material) && !look.shines() && !transmits(material) &&
-                         !material.diffuse_transmission;
+    const bool may_have_open_back =
+        !has_back(material) && !look.shines() && !material.diffuse_transmission;
+    look.has_open_back = may_have_open_back && !transmits(material);
+    look.has_open_opaque_parts =
+        may_have_open_back && transmits(material) && has_map(look[MaterialTexture::transmission]);
     look.is_textured = std::ranges::any_of(look.slots, has_map);
     look.has_back = has_back(material);
     look.is_opaque = !is_thin_glass(material) && material.alpha_mode == AlphaMode::opaque;
@@ -95,11 +99,12 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
   for (const Object& object : scene.objects) {
     const auto none = static_cast<std::uint32_t>(scene.materials.size());
     std::uint32_t look = object.material.value_or(none);
-    if (looks_[look].has_open_back && is_closed(object.shape)) {
+    if ((looks_[look].has_open_back || looks_[look].has_open_opaque_parts) &&
+        is_closed(object.shape)) {
       if (!closed[look]) {
         closed[look] = static_cast<std::uint32_t>(looks_.size());
         TexturedMaterial copy = looks_[look];
-        copy.has_open_back = false;
+        copy.has_open_back = copy.has_open_opaque_parts = false;
         looks_.push_back(copy);
       }
       look = *closed[look];
@@ -167,9 +172,16 @@ Vec4 Shading::base_color(const ShadingPoint& point) {
 
 float Shading::coverage(const ShadingPoint& point, bool from_camera) const {
   const Material& material = *point.look->material;
-  if (is_missing_back(point) && (from_camera || is_thin_glass(material))) return 0;
+  if (is_missing_back(point) &&
+      (from_camera || (is_thin_glass(material) && !is_opaque_part(point))))
+    return 0;
   if (material.alpha_mode == AlphaMode::opaque) return 1;
   return coverage(material, base_color(point).w);
+}
+
+bool Shading::is_opaque_part(const ShadingPoint& point) {
+  const TextureSlot& slot = (*point.look)[MaterialTexture::transmission];
+  return slot.map != nullptr && slot.at(point.unfiltered()).x == 0;
 }
 
 float Shading::coverage(const Material& material, float alpha) {

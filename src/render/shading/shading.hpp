@@ -72,6 +72,8 @@ struct TexturedMaterial {
   /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
   bool has_constant_emission = false;
   bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
+  /// As has_open_back, but only where the transmission texture is 0.
+  bool has_open_opaque_parts = false;
   /// True if constant_but_textures is set, the roughness is not given as glossiness, and the
   /// material is neither unlit nor emissive, except by a texture.
   bool is_simple = false;
@@ -176,7 +178,8 @@ class Shading {
   /// True if light arrives through the surface on the point's side when backs pass light. This is
   /// the case on the front of a one-sided surface that is neither emissive nor transmissive.
   [[nodiscard]] static bool lets_light_in(const ShadingPoint& point) {
-    return point.at.front && point.look->has_open_back;
+    return point.at.front && (point.look->has_open_back ||
+                              (point.look->has_open_opaque_parts && is_opaque_part(point)));
   }
   /// True if a material has textures, so that the footprints of paths matter.
   [[nodiscard]] bool has_textures() const { return has_textures_; }
@@ -239,6 +242,8 @@ class Shading {
   [[nodiscard]] static Vec4 base_color(const ShadingPoint& point);
   void find_open_fronts();
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
+  /// True if the transmission texture is 0 at the point.
+  [[nodiscard]] static bool is_opaque_part(const ShadingPoint& point);
 
   const Primitives& primitives_;
   std::unique_ptr<TextureMaps> maps_;
