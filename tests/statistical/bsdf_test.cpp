@@ -123,6 +123,33 @@ TEST(Bsdf, IsReciprocal) {
   }
 }
 
+// Radiance divided by the square of the index of refraction is reciprocal across a boundary.
+TEST(Bsdf, HalfGlassIsReciprocal) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> u(0.05, 1);
+  constexpr float kIor = 1.5F;
+  for (int i = 0; i < 500; ++i) {
+    Parameters p{.base_color = Vec3(u(random), u(random), u(random)),
+                 .metallic = i % 2 == 0 ? 0 : float(u(random)),
+                 .roughness = 0.3F + 0.7F * float(u(random)),
+                 .transmission = float(u(random)),
+                 .diffuse_transmission = i % 4 < 2 ? 0 : float(u(random))};
+    const Vec3 a = direction(std::acos(u(random)), 6 * u(random));
+    const Vec3 b = direction(std::acos(u(random)), 6 * u(random));
+    const auto under = [](const Vec3& w) { return Vec3(w.x, w.y, -w.z); };
+    const auto bsdf = [&](float eta, const Vec3& wo, const Vec3& wi) {
+      p.eta = eta;
+      return Scattering(p, wo).evaluate(wi).value / std::abs(wi.z);
+    };
+    const Vec3 in = bsdf(kIor, a, under(b)), out = kIor * kIor * bsdf(1 / kIor, b, under(a));
+    const Vec3 forth = bsdf(1 / kIor, a, b), back = bsdf(1 / kIor, b, a);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(in[c], out[c], 1e-3F * (in[c] + 0.01F)) << i;
+      EXPECT_NEAR(forth[c], back[c], 1e-3F * (forth[c] + 0.01F)) << i;
+    }
+  }
+}
+
 // Tests Snell's law: a smooth surface refracts to sin(theta) / eta.
 TEST(Bsdf, SmoothGlassRefracts) {
   const Scattering bsdf({.roughness = 0, .transmission = 1, .eta = 1.5F}, direction(0.8, 0));

@@ -169,6 +169,23 @@ TEST(Furnace, Glass) {
   expect_white("a body of air", glass, {}, 0.02);
 }
 
+// The part that is not transmitted is reflected diffusely, also from inside.
+TEST(Furnace, HalfTransmittingGlass) {
+  Parameters glass = kWhite;
+  for (const float transmission : {0.1F, 0.5F, 0.9F}) {
+    glass.transmission = transmission;
+    for (const float ior : {1.33F, 1.8F}) {
+      glass.diffuse_transmission = ior == 1.8F ? 0.5F : 0;
+      const float r = (ior - 1) / (ior + 1);
+      glass.dielectric.f0 = Vec3(r * r);
+      glass.eta = ior;
+      expect_white("half-transmitting glass", glass, {}, 0.01);
+      glass.eta = 1 / ior;
+      expect_white("half-transmitting glass from within", glass, {}, 0.02);
+    }
+  }
+}
+
 TEST(Furnace, Anisotropic) {
   Parameters metal = kMetal, dielectric = kWhite, wall = kWhite;
   for (const float strength : {0.3F, 0.6F, 0.8F}) {

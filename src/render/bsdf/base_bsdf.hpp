@@ -101,6 +101,10 @@ class BaseBsdf {
   [[nodiscard]] Evaluation<N> above(const Coating<N>* coating, const V& wi, const V& h) const;
   [[nodiscard]] Evaluation<N> below(const Coating<N>* coating, const V& wi, const V& h) const;
   void refract(const V& wi, Evaluation<N>& e) const;
+  /// Removes the dielectric from the opaque part of a refracting surface where wo is in the denser
+  /// medium: pigments that touch the medium reflect its light without a boundary in between. `here`
+  /// and `mean` are Left::diffuse for wo and on average.
+  void uncover_opaque_part(const Surface<N>& surface, const F& here, const F& mean);
   void add_transmission(const Surface<N>& surface, const V& f0, const F& white_mean,
                         const F& several);
   void add_refraction_loss(const Surface<N>& surface);
@@ -147,6 +151,11 @@ class BaseBsdf {
   F least_square_, on_facets_;  ///< see dielectric_at()
   F metallic_, eta_;
   V diffuse_below_, multiple_below_, transmitted_;
+  F bare_;          ///< fraction of the surface that uncover_opaque_part() uncovers
+  V bare_diffuse_;  ///< the value of its diffuse reflection
+  /// The factors of light that diffuse transmission reflects, and of light that it transmits.
+  V bare_kept_;
+  F bare_through_;
   RefractionLoss<N> loss_;
   V lost_, lost_below_;  ///< energy compensation of refraction, above and below
   F below_probability_;  ///< probability of sampling below the surface if no microfacet normal is

@@ -41,8 +41,9 @@ auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
   if (!features_.transmits) return {reflectance(angle_cosine), all3<N>(0), F{}};
   const auto [cosine, is_total] = incidence(angle_cosine);
   const auto is_opaque = is_zero(transmitted_);
-  V reflected = reflectance(dielectric_, cosine);
-  const V entering = complement(reflected) * transmitted_;
+  const V dielectric = reflectance(dielectric_, cosine);
+  const V entering = complement(dielectric) * transmitted_;
+  V reflected = dielectric;
   const auto is_mixed = (metallic_ != 0) & negated(is_opaque);
   if (any(is_mixed)) {
     const V both = features_.has_film ? mixed(reflected, reflectance(metal_, cosine), metallic_)
@@ -51,8 +52,12 @@ auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
   }
   if (any(is_opaque)) reflected = select3(is_opaque, reflectance(cosine), reflected);
   const V none = all3<N>(0);
-  return {select3(is_total != 0, all3<N>(1), reflected),
-          select3((is_total != 0) | is_opaque, none, entering), F{}};
+  reflected = select3(is_total != 0, all3<N>(1), reflected);
+  if (features_.refracts && any(bare_ > 0)) {
+    const V covered = select3(is_total != 0, all3<N>(1), dielectric);
+    reflected = greatest_components(V(reflected - bare_ * covered), none);
+  }
+  return {reflected, select3((is_total != 0) | is_opaque, none, entering), F{}};
 }
 
 // fresnel_mix of KHR_materials_specular and rgb_mix of KHR_materials_iridescence, which equal the
@@ -84,7 +89,10 @@ Evaluation<N> BaseBsdf<N, Parts>::above(const Coating<N>* coating, const V& wi, 
   if (coating != nullptr) single *= transmittance(*coating, wi);
   V f = single + diffuse_ * there.diffuse + multiple_ * there.f1;
   F facets = facet_probability_, rest = 1 - facet_probability_;
-  if (features_.refracts) f += lost_ * loss_.above(wi.z);
+  if (features_.refracts) {
+    const V bare = bare_diffuse_ + bare_kept_ * (1 - bare_through_ * there.diffuse);
+    f += lost_ * loss_.above(wi.z) + bare;
+  }
   if (features_.transmits) {
     facets *= reflection_probability(facet);
     rest *= 1 - below_probability_;

@@ -35,21 +35,13 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   const F several = kInversePi / larger_of(mean.f1, least) * here.f1;
   multiple_ = multiple_scattering(f0, specular_.f90, white_mean.f1) * several;
   const F mean_diffuse = larger_of(mean.diffuse, least);
-  F opaque = all<N>(1);
-  if (features_.transmits) {
-    opaque = 1 - p.transmission;
-    if (features_.refracts) {
-      // The diffuse part is not visible from inside.
-      opaque = p.eta < 1 ? F{} : opaque;
-      // Refracted light has its own energy compensation.
-      multiple_ *= 1 - dielectric * p.transmission;
-    }
-  }
+  const F opaque = features_.transmits ? 1 - p.transmission : all<N>(1);
   const F diffuse = dielectric * opaque * kInversePi * here.diffuse / mean_diffuse;
   diffuse_ = diffuse * p.base_color;
   if (features_.transmits) {
     diffuse_ = ((1 - p.diffuse_transmission) * diffuse) * p.base_color;
     diffuse_below_ = (p.diffuse_transmission * diffuse) * p.diffuse_transmission_color;
+    if (features_.refracts) uncover_opaque_part(p, here.diffuse, mean_diffuse);
     add_transmission(p, f0, white_mean.f1, several);
   }
 
@@ -62,7 +54,7 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
     facets += luminance(transmitted_) * here.diffuse;
     F down = luminance(diffuse_below_) * mean_diffuse + luminance(multiple_below_) * mean.f1;
     if (features_.refracts) {
-      spread += luminance(lost_) * loss_.mean_above();
+      spread += luminance(lost_) * loss_.mean_above() + luminance(bare_diffuse_ + bare_kept_);
       down += luminance(lost_below_) * loss_.mean_below();
     }
     spread /= kInversePi;
@@ -77,6 +69,34 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
                                                         : smaller_of(F(10 * spread), all<N>(0.02F));
   const F share = clamped(F(facets / (facets + spread)), all<N>(0.1F), F(1 - rarest));
   facet_probability_ = spread > 0 ? share : all<N>(1);
+}
+
+template <int N, class Parts>
+void BaseBsdf<N, Parts>::uncover_opaque_part(const Surface<N>& p, const F& here, const F& mean) {
+  const F dielectric = 1 - p.metallic;
+  const V none = all3<N>(0);
+  const auto from_denser = p.eta < 1;
+  diffuse_ = select3(from_denser, none, diffuse_);
+  if (features_.is_spec) {
+    // The specification has no formula for the opaque part as seen from inside.
+    diffuse_below_ = select3(from_denser, none, diffuse_below_);
+    bare_ = F{};
+    bare_through_ = F{};
+    bare_diffuse_ = bare_kept_ = none;
+  } else {
+    // By reciprocity, the denser side has this fraction of the diffuse transmission of the other.
+    // The diffuse reflection gets the rest.
+    bare_through_ = from_denser ? p.eta * p.eta : F{};
+    diffuse_below_ = select3(from_denser, V(bare_through_ * diffuse_below_), diffuse_below_);
+    bare_ = from_denser ? dielectric * (1 - p.transmission) : F{};
+    const F least = all<N>(1e-6F);
+    const F kept = (1 - bare_through_ * here) / larger_of(F(1 - bare_through_ * mean), least);
+    bare_kept_ =
+        (bare_ * kInversePi * p.diffuse_transmission * kept) * p.diffuse_transmission_color;
+    bare_diffuse_ = (bare_ * kInversePi * (1 - p.diffuse_transmission)) * p.base_color;
+  }
+  // Refracted light has its own energy compensation, and the bare part reflects all light.
+  multiple_ *= 1 - dielectric * (from_denser ? all<N>(1) : p.transmission);
 }
 
 template <int N, class Parts>
