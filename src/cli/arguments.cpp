@@ -32,6 +32,14 @@ void check_sampling(const SamplingOptions& sampling, bool is_path) {
   }
 }
 
+/// Refuses samples of quantities, which can't be averaged.
+void check_quantity(const Arguments& a) {
+  const auto* quantity = std::get_if<Aov>(&*a.integrator);
+  if (quantity == nullptr || a.sampling.samples <= 1) return;
+  refuse_usage("--spp: --integrator " + std::string(name_of(*quantity)) +
+               " shows a quantity, which can't be averaged; omit --spp");
+}
+
 void check_shutter(const Arguments& a) {
   if (!a.shutter) return;
   if (!a.is_path_traced())
@@ -82,6 +90,7 @@ void apply_defaults(Arguments& a, SceneFormat format) {
   apply_quality(a.sampling, a.is_path_traced());
   if (a.sampling.samples == 0) a.sampling.samples = default_samples(*a.integrator);
   check_sampling(a.sampling, a.is_path_traced());
+  check_quantity(a);
   check_shutter(a);
   if (!a.display.exposure && a.display.automatic == AutomaticExposure::never &&
       format == SceneFormat::gltf && a.is_path_traced())

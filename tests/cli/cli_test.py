@@ -298,6 +298,8 @@ class CommandLine(ProgramTest):
                       ["--aov", "depth", "-o", "-"]):
             result = self.run_program(*options, *wrong)
             self.assertEqual(result.returncode, 2, (wrong, result.stderr))
+        self.assertIn(b"error: --spp: --integrator normal shows a quantity, which can't be averaged; omit --spp\n",
+                      self.run_program(*options, "--integrator", "normal", "--spp", "2").stderr)
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_samples(self):
@@ -540,6 +542,20 @@ class CommandLine(ProgramTest):
             self.assertEqual(result.returncode, 2, (arguments, result.stderr))
             self.assertNotEqual(result.stderr, b"", arguments)
             self.assertEqual(os.listdir(self.folder), [], arguments)
+
+    def test_a_switch_takes_no_value(self):
+        for word in ("--quiet=0", "--quiet=1", "--quiet=true", "-q=0", "--quiet=", "--progressive=false", "--help=0", "--version=1"):
+            result = self.run_program(SCENE, word, "-o", "a.ppm")
+            self.assertEqual((result.returncode, result.stdout), (2, b""), word)
+            self.assertIn(f"error: {word.split('=')[0]}: takes no value\n".encode(), result.stderr)
+        for word in ("--stats=", "--ground="):
+            result = self.run_program(SCENE, word, "--integrator", "path", "-o", "a.ppm")
+            self.assertEqual(result.returncode, 2, word)
+            self.assertIn(b"expects a value, is empty", result.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+        # Words after these are names of files or values.
+        self.assertIn(b"--quiet=0: can't be opened", self.run_program("-o", "a.ppm", "--", "--quiet=0").stderr)
+        self.assertNotIn(b"FOLDER FOLDER", self.run_program("verify", "--help").stdout)
 
     # Broken scenes
 

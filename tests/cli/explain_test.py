@@ -422,6 +422,11 @@ class Explain(ProgramTest):
             self.assertIn(f'"{item["name"]}"', text)
             self.assertIn(item["derivation"], text)
         self.assertLessEqual(max(map(len, text.splitlines())), 130)
+        balls = [{"type": "sphere", "center": [0, 0, z], "radius": 1} for z in (0, 4)]
+        for ray, count, heading in [("9,9,9,0,0,1", 1, "No hits among 1 primitive"), ("0,0,0,0,0,1", 1, "1 hit among 1 primitive:"),
+                                    ("0,0,9,0,0,-1", 2, "2 hits among 2 primitives, nearest first:")]:
+            scene = self.scene_of(*balls[:count])
+            self.assertIn(f"\n\n{heading}\n", self.run_program("explain", scene, "--ray=" + ray).stdout.decode())
         # Names can't control the terminal.
         scene = self.scene_of({"name": "\x1b[2J", "type": "sphere", "center": [0, 0, 0], "radius": 1})
         text = self.run_program("explain", scene, "--ray=0,0,5,0,0,-1").stdout

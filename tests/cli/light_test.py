@@ -59,6 +59,9 @@ class Environments(ProgramTest):
     def test_usage(self):
         for light in ("", "#12345", "#12345g"):
             self.assert_refused(2, "--env", "--env", light)
+        for numbers in ("2,2", "1", "1,2,-3", "1,2,3,4"):  # neither a color nor likely a file
+            self.assert_refused(2, f"--env: expects studio, #rrggbb (sRGB), three numbers from 0 up (linear light) such as 0.2,0.4,1, "
+                                f"or a file, not {numbers}\n", "--env", numbers)
         for turn in ("x", "nan", "inf", ""):
             self.assert_refused(2, "--env-rotation", "--env", "studio", "--env-rotation", turn)
         for factor in ("x", "nan", "-1", "2e9"):

@@ -115,7 +115,7 @@ std::string line_of(const Option& option) {
   }
   if (!option.implied_value.empty()) {
     line.append("[=").append(option.metavar).append("]");
-  } else if (!option.metavar.empty()) {
+  } else if (!option.is_switch() && option.metavar != option.names) {
     line.append(" ").append(option.metavar);
   }
   if (option.is_positional() && option.is_repeatable) line += "...";

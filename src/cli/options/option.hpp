@@ -59,7 +59,10 @@ struct Option {
   /// Returns the first long name, such as "--output", or the name of the positional argument.
   [[nodiscard]] std::string_view name() const;
   [[nodiscard]] std::vector<std::string_view> all_names() const;
-  [[nodiscard]] bool is_flag() const { return metavar.empty() || !implied_value.empty(); }
+  /// Returns true if the option takes no value.
+  [[nodiscard]] bool is_switch() const { return metavar.empty(); }
+  /// Returns true if the option may be given without a value.
+  [[nodiscard]] bool is_flag() const { return is_switch() || !implied_value.empty(); }
   [[nodiscard]] bool is_positional() const { return !names.starts_with('-'); }
 };
 

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdio>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -27,6 +29,10 @@ struct Given {
   const Option* option;
   std::vector<std::string> values;
 };
+
+[[noreturn]] void refuse_empty(const std::string& name) {
+  refuse_usage(name + ": expects a value, is empty");
+}
 
 /// Splits the command line with CLI11. The option table's rows convert the values.
 class Parser {
@@ -49,17 +55,18 @@ class Parser {
 
   /// Returns the given options with their values. Throws CLI::ParseError and Error (usage).
   std::vector<Given> parse(int argc, char** argv) {
+    check_flags({argv + 1, argv + argc});
     app_.parse(argc, argv);
     std::vector<Given> given;
     for (const auto& [option, added] : options_) {
       if (added->count() == 0 || option->set == nullptr) continue;
-      if (option->metavar.empty()) {
-        if (added->as<bool>()) given.push_back({option, {""}});
+      if (option->is_switch()) {
+        given.push_back({option, {""}});
         continue;
       }
       const std::vector<std::string> values = added->reduced_results();
       if (std::ranges::find(values, std::string()) != values.end())
-        refuse_usage(std::string(option->name()) + ": expects a value, is empty");
+        refuse_empty(std::string(option->name()));
       given.push_back({option, values});
     }
     return given;
@@ -68,6 +75,21 @@ class Parser {
   [[nodiscard]] const CLI::App& app() const { return app_; }
 
  private:
+  /// Throws Error (usage) if a word gives a value to a switch, or an empty value to another option
+  /// that may omit it. CLI11 would accept both.
+  void check_flags(std::span<char* const> words) const {
+    for (const std::string_view word : words) {
+      if (word == "--") return;
+      const std::size_t equals = word.find('=');
+      const std::string name(word.substr(0, equals));
+      for (const auto& [option, added] : options_) {
+        if (equals == word.npos || !option->is_flag() || !added->check_name(name)) continue;
+        if (option->is_switch()) refuse_usage(name + ": takes no value");
+        if (equals + 1 == word.size()) refuse_empty(name);
+      }
+    }
+  }
+
   void add(const Option& option) {
     std::string names(option.names);
     CLI::Option* added = nullptr;
@@ -133,7 +155,7 @@ void identify_dataset(const std::vector<Given>& given, DatasetOptions& dataset) 
       std::string argument = value;
       if (!option->is_positional()) {
         argument = option->name();
-        if (!option->metavar.empty()) argument.append("=").append(value);
+        if (!option->is_switch()) argument.append("=").append(value);
         if (option->name() != "--allow-path")
           dataset.identity.append(dataset.identity.empty() ? "" : " ").append(argument);
       }
@@ -152,7 +174,7 @@ std::vector<std::string> picture_words(const std::vector<Given>& given) {
       // A value that may be omitted can't be a word of its own.
       if (!option->implied_value.empty())
         words.back().append("=").append(value);
-      else if (!option->metavar.empty())
+      else if (!option->is_switch())
         words.push_back(value);
     }
   }

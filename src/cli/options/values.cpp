@@ -180,7 +180,10 @@ std::optional<Vec3> parse_radiance(const std::string& text) {
 EnvironmentSource parse_environment(const OptionValue& value) {
   if (value.text == "studio") return Studio{};
   if (const auto radiance = parse_radiance(value.text)) return *radiance;
-  if (!value.text.empty() && value.text[0] != '#') return std::filesystem::path(value.text);
+  // Numbers that are no color are more likely a mistake than a file.
+  const bool is_path =
+      !value.text.empty() && value.text[0] != '#' && numbers_of(value.text).empty();
+  if (is_path) return std::filesystem::path(value.text);
   value.refuse(
       "studio, #rrggbb (sRGB), three numbers from 0 up (linear light) such as 0.2,0.4,1, or a "
       "file");

@@ -1,6 +1,7 @@
 #include "cli/report/explanation_text.hpp"
 
 #include "base/printable.hpp"
+#include "cli/report/counted.hpp"
 #include "scene/validate/validate.hpp"
 
 #include <array>
@@ -215,9 +216,9 @@ std::string heading(std::uint64_t count, std::size_t listed, std::string_view si
 
 std::string explanation_text(const Explanation& e) {
   std::string text = ray_text(e);
-  text +=
-      heading(e.hit_count, e.hits.size(), "hit", "hits",
-              " in the scene of " + std::to_string(e.primitives) + " primitives, nearest first");
+  text += heading(
+      e.hit_count, e.hits.size(), "hit", "hits",
+      " among " + counted(e.primitives, "primitive") + (e.hit_count > 1 ? ", nearest first" : ""));
   for (std::size_t i = 0; i < e.hits.size(); ++i) text += hit_text(e.hits[i], i);
   if (e.visible && *e.visible >= e.hits.size())
     text.append("\nHit ").append(std::to_string(*e.visible + 1)).append(" is visible.\n");
