@@ -5,7 +5,7 @@
 
 #include <microtrace/error.hpp>
 
-#include <cstdio>
+#include <string_view>
 #include <vector>
 
 namespace microtrace::cli {
@@ -260,26 +260,13 @@ bool is_completion(int argc, char** argv) {
   return argc > 1 && std::string_view(argv[1]) == "completion";
 }
 
-std::optional<std::string> completion_script(std::string_view shell) {
+std::string completion_text(int argc, char** argv) {
+  const std::string_view shell = argc == 3 ? argv[2] : "";
   if (shell == "bash") return bash_script();
   if (shell == "zsh") return zsh_script();
   if (shell == "fish") return fish_script();
-  return std::nullopt;
-}
-
-int print_completion(int argc, char** argv) {
-  const std::string_view shell = argc == 3 ? argv[2] : "";
-  const std::optional<std::string> script =
-      shell == "--help" || shell == "-h" ? kHelp : completion_script(shell);
-  if (!script) {
-    std::fputs("error: microtrace completion expects bash, zsh or fish\n", stderr);
-    return static_cast<int>(ErrorKind::usage);
-  }
-  if (std::fputs(script->c_str(), stdout) == EOF || std::fflush(stdout) != 0) {
-    std::fputs("error: standard output can't be written\n", stderr);
-    return static_cast<int>(ErrorKind::io);
-  }
-  return 0;
+  if (shell == "--help" || shell == "-h") return kHelp;
+  throw Error(ErrorKind::usage, "", "microtrace completion expects bash, zsh or fish");
 }
 
 }  // namespace microtrace::cli

@@ -2,19 +2,15 @@
 /// `microtrace completion SHELL` prints a script that lets the shell complete microtrace's command
 /// line.
 
-#include <optional>
 #include <string>
-#include <string_view>
 
 namespace microtrace::cli {
 
 /// Returns true if the first argument is "completion".
 [[nodiscard]] bool is_completion(int argc, char** argv);
 
-/// Prints the script to standard output; returns the exit code.
-[[nodiscard]] int print_completion(int argc, char** argv);
-
-/// Returns the script for bash, zsh or fish; nothing for another shell.
-[[nodiscard]] std::optional<std::string> completion_script(std::string_view shell);
+/// Returns the script for the shell that the arguments name, or the usage for --help. Throws Error
+/// (usage).
+[[nodiscard]] std::string completion_text(int argc, char** argv);
 
 }  // namespace microtrace::cli

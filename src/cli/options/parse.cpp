@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <span>
 #include <sstream>
 #include <string>
@@ -230,12 +229,6 @@ void complete(Arguments& a) {
   check_patterns(a);
 }
 
-int print(const std::string& text) {
-  if (std::fputs(text.c_str(), stdout) != EOF && std::fflush(stdout) == 0) return 0;
-  std::fputs("error: standard output can't be written\n", stderr);
-  return static_cast<int>(ErrorKind::io);
-}
-
 /// Throws CLI::ParseError and Error (usage).
 Arguments parse_with(Parser& parser, Command command, int argc, char** argv) {
   Arguments a;
@@ -269,9 +262,9 @@ Parsed parse_arguments(Command command, int argc, char** argv) {
   try {
     parsed.arguments = parse_with(parser, command, argc, argv);
   } catch (const CLI::CallForHelp&) {
-    parsed.exit_code = print(help_text(command));
+    parsed.output = help_text(command);
   } catch (const CLI::CallForVersion& version) {
-    parsed.exit_code = print(std::string(version.what()) + "\n");
+    parsed.output = std::string(version.what()) + "\n";
   } catch (const CLI::ParseError& error) {
     parsed.exit_code = report_usage_error(command, message_of(command, parser.app(), error));
   } catch (const Error& error) {

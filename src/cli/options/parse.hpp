@@ -10,11 +10,12 @@ namespace microtrace::cli {
 
 struct Parsed {
   Arguments arguments;
-  std::optional<int> exit_code{};  ///< if present, the program should end with it
+  std::optional<std::string> output{};  ///< if present, --help or --version asks for this text
+  std::optional<int> exit_code{};       ///< if present, the program should end with it
 };
 
-/// Parses the arguments of a command. Prints the output of --help and --version to standard output
-/// and usage errors to standard error; in these cases exit_code is present.
+/// Parses the arguments of a command. Prints usage errors to standard error; exit_code is then
+/// present.
 [[nodiscard]] Parsed parse_arguments(Command command, int argc, char** argv);
 
 /// Parses the words that follow a command. Throws Error (usage), also for --help and --version.
