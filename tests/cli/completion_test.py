@@ -56,6 +56,18 @@ class Completion(ProgramTest):
         self.assertEqual(self.complete_in_bash("microtrace", "--size", ""), set())
         self.assertEqual(self.complete_in_bash("microtrace", "--env", "s") & {"studio"}, {"studio"})
 
+    def test_values_after_an_equals_sign_in_bash(self):
+        (self.folder / "notes.txt").write_text("")
+        # By default, bash divides words at equals signs. If COMP_WORDBREAKS lacks them, it doesn't.
+        for option, start, values in [("--tonemap", "a", {"aces", "agx"}), ("--stats", "", {"text", "json"}), ("--ground", "", {"lowest"}),
+                                      ("--output", "n", {"notes.txt"}), ("--size", "", set()), ("--quiet", "", set())]:
+            divided = [option, "=", start] if start else [option, "="]
+            self.assertEqual(self.complete_in_bash("microtrace", "a.json", *divided), values, option)
+            self.assertEqual(self.complete_in_bash("microtrace", "a.json", f"{option}={start}"), {f"{option}={value}" for value in values}, option)
+        self.assertEqual(self.complete_in_bash("microtrace", "dataset", "--formats", "=", "n"), {"npz"})
+        # An optional value can't be a word of its own.
+        self.assertNotIn("json", self.complete_in_bash("microtrace", "--stats", ""))
+
     def test_commands_in_bash(self):
         for name in ("scene.json", "sums"):
             (self.folder / name).write_text("")
@@ -81,11 +93,15 @@ class Completion(ProgramTest):
         self.assertEqual(complete("microtrace --samp"), {"--samples"})
         self.assertLessEqual(self.help_options(), complete("microtrace --"))
         self.assertEqual(complete("microtrace --tonemap a"), {"aces", "agx"})
+        self.assertEqual(complete("microtrace --tonemap=a"), {"--tonemap=aces", "--tonemap=agx"})
+        self.assertEqual(complete("microtrace --stats="), {"--stats=text", "--stats=json"})
+        self.assertNotIn("json", complete("microtrace --stats "))
         self.assertEqual(complete("microtrace a.json -o verify --redr"), set())
         self.assertEqual(complete("microtrace completion "), {"bash", "zsh", "fish"})
         self.assertIn("dataset", complete("microtrace da"))
         for command in COMMANDS:
-            self.assertEqual(self.help_options(command), complete(f"microtrace {command} --"))
+            names = {word.rstrip("=") for word in complete(f"microtrace {command} --")}  # --ground= if its value may be omitted
+            self.assertEqual(self.help_options(command), names)
 
     def test_zsh(self):
         script = self.script("zsh")
@@ -94,6 +110,8 @@ class Completion(ProgramTest):
         for command in ("render", *COMMANDS):
             for option in self.help_options(*([command] if command != "render" else [])):
                 self.assertRegex(parts[command], rf"'(\([^)]*\)|\*){option}[=[]")
+        self.assertRegex(parts["render"], r"--tonemap=\[[^\n]*\]:NAME:\(none ")
+        self.assertRegex(parts["render"], r"--stats=-\[[^\n]*\]::KIND:\(text json\)")
 
     def test_completed_words_are_accepted(self):
         for option in ("--integrator", "--aov", "--tonemap", "--view", "--background", "--env", "--filter", "--ppm",

@@ -90,18 +90,29 @@ bool has_value(const Option& option) {
   return !option.is_flag();
 }
 
-/// Returns the cases of bash's completion for the word after each option of a command, and for all
+/// Returns bash's patterns for what precedes the value of an option: `prefix` and "--size", or
+/// "--size=" if the value is a part of the same word.
+std::vector<std::string> bash_patterns(const std::string& prefix, const Option& option) {
+  std::vector<std::string> patterns;
+  for (const std::string& name : names_of(option)) {
+    if (has_value(option)) patterns.push_back(prefix + name);
+    if (!option.is_switch() && name.starts_with("--")) patterns.push_back(prefix + name + "=");
+  }
+  return patterns;
+}
+
+/// Returns the cases of bash's completion for the value of each option of a command, and for all
 /// other words.
 std::string bash_cases(Command command) {
   const std::string prefix = std::string(name_of(command)) + ",";
   std::vector<std::string> all_names, files, free;
   std::string cases;
   for (const Option& option : named_options(command)) {
-    std::vector<std::string> names = names_of(option);
+    const std::vector<std::string> option_names = names_of(option);
     const std::vector<std::string> words = words_of(option);
-    all_names.insert(all_names.end(), names.begin(), names.end());
-    if (!has_value(option)) continue;
-    for (std::string& name : names) name.insert(0, prefix);
+    all_names.insert(all_names.end(), option_names.begin(), option_names.end());
+    const std::vector<std::string> names = bash_patterns(prefix, option);
+    if (names.empty()) continue;
     const bool takes_file = option.completion != Completion::none;
     if (!words.empty()) {
       cases += "    " + joined(names, "|") + ") words=" + in_single_quotes(joined(words, " "));
@@ -127,10 +138,18 @@ std::string bash_script() {
   return R"(# bash completion for microtrace
 _microtrace() {
   local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command=render
-  local words= files= names= operands= file
+  local words= files= names= operands= whole= file
   if [[ $COMP_CWORD -gt 1 ]]; then
     case ${COMP_WORDS[1]} in )" +
          command_names("|") + R"() command=${COMP_WORDS[1]} ;; esac
+  fi
+  # The value may follow = in the same word, which bash divides at the characters of COMP_WORDBREAKS.
+  if [[ $before == = ]]; then
+    before=${COMP_WORDS[COMP_CWORD-2]}=
+  elif [[ $current == = ]]; then
+    before+== current=
+  elif [[ $current == --*=* ]]; then
+    before=${current%%=*}= current=${current#*=} whole=$before
   fi
   COMPREPLY=()
   case $command,$before in
@@ -144,14 +163,14 @@ _microtrace() {
     [[ $COMP_CWORD -gt 1 ]] || words=')" +
          command_names(" ") + R"('
   fi
-  [[ -n $words ]] && mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+  [[ -n $words ]] && mapfile -t COMPREPLY < <(compgen -W "$words" -P "$whole" -- "$current")
   [[ -n $files ]] || return
   compopt -o filenames 2>/dev/null
   while IFS= read -r file; do
     if [[ $files == yes || -d $file ]]; then
-      COMPREPLY+=("$file")
+      COMPREPLY+=("$whole$file")
     elif [[ $files == scenes && ($file == *.json || $file == *.gltf || $file == *.glb) ]]; then
-      COMPREPLY+=("$file")
+      COMPREPLY+=("$whole$file")
     fi
   done < <(compgen -f -- "$current")
 }
@@ -174,9 +193,10 @@ std::string zsh_arguments(Command command) {
     const std::vector<std::string> names = names_of(option);
     for (const std::string& name : names) {
       std::string entry = option.is_repeatable ? "*" + name : "(" + joined(names, " ") + ")" + name;
-      if (has_value(option) && name.starts_with("--")) entry += '=';
+      // =- requires a value to be in the same word, and a second colon makes it optional.
+      if (!option.is_switch() && name.starts_with("--")) entry += has_value(option) ? "=" : "=-";
       entry += "[" + escaped(std::string(option.help), "[]:\\") + "]";
-      if (has_value(option)) entry += zsh_value(option);
+      if (!option.is_switch()) entry += (has_value(option) ? "" : ":") + zsh_value(option);
       script += "      " + in_single_quotes(entry) + " \\\n";
     }
   }
@@ -238,9 +258,10 @@ complete -c microtrace -n '__microtrace_command completion' -f -a ')" +
         const bool is_long = name.starts_with("--");
         script += (is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1);
       }
-      if (has_value(option)) {
+      if (!option.is_switch()) {
         const std::vector<std::string> words = words_of(option);
-        script += option.completion != Completion::none ? " -r -F" : " -x";
+        const bool takes_file = option.completion != Completion::none;
+        script += !has_value(option) ? " -f" : takes_file ? " -r -F" : " -x";
         if (!words.empty()) script += " -a " + in_single_quotes(joined(words, " "));
       }
       script += " -d " + in_single_quotes(escaped(std::string(option.help), "\\")) + "\n";
