@@ -342,6 +342,8 @@ class CommandLine(ProgramTest):
         self.assertGreater(stages["filters"], 0)  # counted even though a scene of one ball has no tree
         self.assertGreater(stages["origins"], 0)
         self.assertIn(b"missing_origins", self.run_program(ball, "-o", "a.ppm", "--stats").stderr)
+        for scene in (ball, textures):  # rays that determine the exposure are not those of the picture
+            self.assertEqual(rays(kinds(scene, "--exposure", "auto")), rays(kinds(scene, "--exposure", "0")))
         short = rays(kinds(ball, "--max-depth", "1"))
         self.assertEqual((short["path"], short["shadow"]), (0, 0))
         text = self.run_program(ball, "-o", "a.ppm", "--size", "50x40", "--spp", "1", "--integrator", "path", "-q", "--stats").stderr

@@ -296,6 +296,16 @@ class DarkPictures(ProgramTest):
         self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "-q"), "")
         self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "--integrator", "flat"), "")
 
+    def test_a_ground_without_a_lowest_point(self):
+        plane = {"objects": [{"type": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}]}
+        words = "scene.json: no object is bounded, so the scene has no lowest point for --ground; give a height, as in --ground=0\n"
+        self.assertEqual(self.warnings(plane, "--ground"), "warning: " + words)
+        self.assertEqual(self.warnings(plane, "--ground", "--strict", code=3), "error: " + words)
+        for document, option in ((plane, "--ground=0"), ({}, "--ground"), ({"objects": plane["objects"] + [{"type": "sphere", "center": [0, 0, 0], "radius": 1}]}, "--ground")):
+            self.assertEqual(self.warnings(document, option), "", option)
+        (self.folder / "plane.json").write_text((self.folder / "scene.json").read_text().replace("sphere", "disc").replace('"radius"', '"normal": [0, 1, 0], "radius"'))
+        self.assertEqual(self.run_program("plane.json", "--ground", "--integrator", "path", "--spp", "1", "--size", "8x8", "-q").stderr, b"")
+
     def test_other_backgrounds(self):
         for options in (("--background", "#808080"), ("--background", "transparent")):
             self.assertIn("most of the visible scene is black", self.warnings({"lights": [self.lamp(0)]}, *options))

@@ -81,6 +81,7 @@ void ViewRenderer::load(const DatasetView& view) {
     options.intensity = static_cast<float>(*view.environment_intensity);
   apply_environment(loaded.scene, environment_, options);
   scene_ = std::make_shared<const Scene>(std::move(loaded.scene));
+  if (const auto warning = ground_warning(arguments_, *scene_)) warnings_.report({*warning});
   check_objects();
   loaded_ = view;
 }

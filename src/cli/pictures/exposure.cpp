@@ -32,6 +32,15 @@ DisplayOptions with_exposure(const DisplayOptions& display, const PreparedScene&
   return result;
 }
 
+DisplayOptions with_exposure(const Arguments& arguments, const PreparedScene& scene,
+                             const Camera& camera, ImageSize size) {
+  const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
+  return with_exposure(arguments.display, scene, camera, size,
+                       {.threads = arguments.threads != 0 ? arguments.threads : default_threads(),
+                        .integrator = integrator.get(),
+                        .memory = arguments.load.memory});
+}
+
 DisplayOptions with_exposure_of_frames(SceneFile& file, const Arguments& arguments,
                                        const std::optional<Environment>& environment,
                                        const std::optional<PerspectiveCamera>& framing) {
@@ -43,15 +52,10 @@ DisplayOptions with_exposure_of_frames(SceneFile& file, const Arguments& argumen
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = framing ? Camera(in_coordinates_of(scene, *framing))
                                 : choose_camera(scene, arguments.camera, size);
-  const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
-  const RenderOptions options{
-      .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
-      .integrator = integrator.get(),
-      .memory = arguments.load.memory,
-  };
+  const unsigned threads = arguments.threads != 0 ? arguments.threads : default_threads();
   const PreparedScene prepared(std::move(scene),
-                               {.threads = options.threads, .memory = options.memory});
-  return with_exposure(arguments.display, prepared, camera, size, options);
+                               {.threads = threads, .memory = arguments.load.memory});
+  return with_exposure(arguments, prepared, camera, size);
 }
 
 }  // namespace microtrace::cli

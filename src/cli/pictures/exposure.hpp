@@ -28,6 +28,11 @@ void refuse_automatic_exposure(const DisplayOptions& display, const char* comman
                                            const PreparedScene& scene, const Camera& camera,
                                            ImageSize size, const RenderOptions& options);
 
+/// Returns the display options of a picture without replaced environment. An integrator of its own
+/// traces the rays for the exposure, which don't count as rays of the picture.
+[[nodiscard]] DisplayOptions with_exposure(const Arguments& arguments, const PreparedScene& scene,
+                                           const Camera& camera, ImageSize size);
+
 /// Returns the options with one exposure for all frames, so that they don't flicker: that of the
 /// scene at 0 seconds. Runs that render different frames use the same exposure. `framing` is the
 /// result of frame_all().

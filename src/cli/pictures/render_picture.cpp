@@ -150,6 +150,42 @@ FilmContents contents_of(const Arguments& arguments, std::optional<ImageSize> si
           .size = size};
 }
 
+/// Returns the options of a picture without the function that reports progress, times, counts and
+/// passes.
+RenderOptions options_of(const Arguments& arguments, const Integrator& integrator,
+                         const PictureFiles& files) {
+  RenderOptions options{
+      .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
+      .integrator = &integrator,
+      .samples = arguments.sampling.samples,
+      .filter = arguments.sampling.filter,
+      .seed = arguments.sampling.seed,
+      .memory = arguments.load.memory,
+      .crop = arguments.crop,
+      .aovs = arguments.aovs.exact,
+      .sampled_aovs = arguments.aovs.sampled,
+      .transparent = arguments.environment.is_transparent(),
+  };
+  // Merging the shards denoises the picture.
+  if (arguments.denoises && arguments.sampling.shard) add_denoise_features(options);
+  if (needs_ids_for_sidecar_only(arguments, files)) options.aovs.push_back(Aov::id);
+  return options;
+}
+
+void warn_about(const RenderCounts& counts, unsigned threads) {
+  if (counts.invalid_samples > 0) {
+    std::fprintf(stderr, "warning: %llu samples were not numbers (NaN) and count as black\n",
+                 static_cast<unsigned long long>(counts.invalid_samples));
+  }
+  if (counts.missing_threads > 0) {
+    std::fprintf(
+        stderr,
+        "warning: the system refused to start %u of %u threads (limit on processes or memory); the "
+        "picture is the same but took longer\n",
+        counts.missing_threads, threads);
+  }
+}
+
 }  // namespace
 
 std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_t pictures) {
@@ -182,25 +218,11 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
   RenderTimes times;
   RenderCounts counts;
-  RenderOptions options{
-      .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
-      .progress = shown_by(progress),
-      .times = &times,
-      .integrator = integrator.get(),
-      .samples = arguments.sampling.samples,
-      .filter = arguments.sampling.filter,
-      .seed = arguments.sampling.seed,
-      .shutter = std::move(shutter),
-      .counts = &counts,
-      .memory = arguments.load.memory,
-      .crop = arguments.crop,
-      .aovs = arguments.aovs.exact,
-      .sampled_aovs = arguments.aovs.sampled,
-      .transparent = arguments.environment.is_transparent(),
-  };
-  // Merging the shards denoises the picture.
-  if (arguments.denoises && arguments.sampling.shard) add_denoise_features(options);
-  if (needs_ids_for_sidecar_only(arguments, files)) options.aovs.push_back(Aov::id);
+  RenderOptions options = options_of(arguments, *integrator, files);
+  options.progress = shown_by(progress);
+  options.times = &times;
+  options.counts = &counts;
+  options.shutter = std::move(shutter);
   const auto start = std::chrono::steady_clock::now();
   // SceneFile no longer counts the memory of this scene once it makes the shutter's scenes.
   MemoryAccount still(options.memory);
@@ -212,7 +234,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
                                                   .max_cost_growth = max_cost_growth});
   const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
   tables = prepared.tables();
-  const DisplayOptions display = with_exposure(arguments.display, prepared, camera, size, options);
+  const DisplayOptions display = with_exposure(arguments, prepared, camera, size);
   options.passes = passes_of(arguments.sampling, *integrator, display, files);
   const std::string shown_name =
       (arguments.sampling.shard || files.picture == "-" ? arguments.scene : files.picture.string());
@@ -222,17 +244,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   times.build += build.count();
   watch.rendered(times);
   apply_display(film, display);
-  if (counts.invalid_samples > 0 && !arguments.quiet) {
-    std::fprintf(stderr, "warning: %llu samples were not numbers (NaN) and count as black\n",
-                 static_cast<unsigned long long>(counts.invalid_samples));
-  }
-  if (counts.missing_threads > 0 && !arguments.quiet) {
-    std::fprintf(
-        stderr,
-        "warning: the system refused to start %u of %u threads (limit on processes or memory); the "
-        "picture is the same but took longer\n",
-        counts.missing_threads, options.threads);
-  }
+  if (!arguments.quiet) warn_about(counts, options.threads);
   const Scene& drawn = prepared.scene();
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
     warnings.report_picture(

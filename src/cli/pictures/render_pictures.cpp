@@ -83,6 +83,7 @@ class PictureRun {
       check_paths(inputs_, sequence_);
       if (digest_) scene_files_ = digest_->value();  // without the checkpoints, which are read next
     }
+    if (const auto warning = ground_warning(arguments_, scene)) log_.report({*warning});
     if (scene_files_)
       log_.report(samples_.emplace(arguments_, sequence_, index, *scene_files_).warnings());
     const PictureFiles files{.picture = sequence_.picture(index),

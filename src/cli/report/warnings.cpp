@@ -1,6 +1,7 @@
 #include "cli/report/warnings.hpp"
 
 #include "cli/report/validation_result.hpp"
+#include "scene/support.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,19 @@ std::string lights_text(const Scene& scene) {
   if (has_emissive_surfaces(scene)) text += ", emissive surfaces";
   if (!scene.environment) return text + ", no environment";
   return text + (is_dark(*scene.environment) ? ", a black environment" : ", an environment");
+}
+
+std::optional<Diagnostic> ground_warning(const Arguments& arguments, const Scene& scene) {
+  if (!arguments.path.ground || arguments.path.ground->height) return std::nullopt;
+  ChunkedMeshes chunks;
+  const auto is_bounded = [&](const Object& object) {
+    return extent_of(object.shape, chunks).has_value();
+  };
+  if (std::ranges::any_of(scene.objects, is_bounded)) return std::nullopt;
+  return warning_about(
+      arguments,
+      "no object is bounded, so the scene has no lowest point for --ground; give a "
+      "height, as in --ground=0");
 }
 
 std::optional<Diagnostic> picture_warning(const FilmView& view, const Arguments& arguments,

@@ -51,6 +51,10 @@ class Warnings {
                                                         const Arguments& arguments,
                                                         const Scene& scene);
 
+/// Returns the warning for --ground without a height in a scene without a lowest point.
+[[nodiscard]] std::optional<Diagnostic> ground_warning(const Arguments& arguments,
+                                                       const Scene& scene);
+
 /// Describes the scene's lights, such as "the built-in studio" or "2 lights of intensity 0, no
 /// environment".
 [[nodiscard]] std::string lights_text(const Scene& scene);
