@@ -96,12 +96,17 @@ def as_integer(value: Any, what: str, low: int, high: int) -> int:
     return number
 
 
-def as_real(value: Any, what: str, low: float, high: float) -> float:
-    """Returns a number in [low, high]. Raises TypeError or ValueError otherwise."""
+def as_real(value: Any, what: str, low: float, high: float, accepted: str = "a number") -> float:
+    """Returns a number in [low, high]. Raises TypeError or ValueError otherwise.
+
+    accepted describes the values that the caller accepts, for messages.
+    """
     try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError  # float() would convert texts
         number = float(value)
     except (TypeError, ValueError):
-        raise TypeError(f"{what} must be a number, not {value!r}") from None
+        raise TypeError(f"{what} must be {accepted}, not {value!r}") from None
     if not low <= number <= high:
         raise ValueError(f"{what} must be from {low} to {high}, not {number}")
     return number

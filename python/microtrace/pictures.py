@@ -362,7 +362,11 @@ def _ground_arguments(ground: bool | float, integrator: str) -> dict[str, float 
         return None
     if integrator != "path":
         raise ValueError('a ground shows shadows, which need integrator="path"')
-    return {"height": None if ground is True else as_real(ground, "ground", -3e38, 3e38)}
+    return {
+        "height": None
+        if ground is True
+        else as_real(ground, "ground", -3e38, 3e38, "True, False or a height")
+    }
 
 
 def _exposure(
@@ -374,7 +378,7 @@ def _exposure(
     if exposure is None:
         is_lit = integrator == "path" and "color" in names and prepared._core.has_lights
         return None if is_lit and not prepared._core.is_flat else 0.0
-    return as_real(exposure, "exposure", -64, 64)
+    return as_real(exposure, "exposure", -64, 64, 'a number, "auto" or None')
 
 
 #: The arrays that denoising needs.

@@ -124,6 +124,13 @@ def test_lights_of_files_are_not_blown_out(program, tmp_path):
     for value, error in ((65, ValueError), (float("nan"), ValueError), ("bright", TypeError)):
         with pytest.raises(error, match="exposure"):
             mt.render(scene, size=SIZE, exposure=value)
+    for value in ("automatic", "1", [1, 2]):  # texts are no numbers
+        with pytest.raises(TypeError, match=r'exposure must be a number, "auto" or None, not '):
+            mt.render(scene, size=SIZE, exposure=value)
+        with pytest.raises(TypeError, match="ground must be True, False or a height, not "):
+            mt.render(scene, size=SIZE, ground=value)
+        with pytest.raises(TypeError, match="exposure must be a number, not "):
+            picture.tonemap(exposure=value)
 
 
 def test_ground(program, tmp_path):
