@@ -20,17 +20,6 @@
 namespace microtrace::cli {
 namespace {
 
-/// Returns the name of the camera that the options select; empty if it is not one of the scene.
-std::string name_of_camera(const Scene& scene, const CameraOptions& options) {
-  if (!options.is_of_scene() || scene.cameras.empty()) return {};
-  if (options.camera.empty()) return scene.cameras.front().name;
-  for (const NamedCamera& camera : scene.cameras) {
-    if (camera.name == options.camera) return camera.name;
-  }
-  const auto index = whole_number(options.camera);
-  return index && *index < scene.cameras.size() ? scene.cameras[*index].name : std::string();
-}
-
 Explanation explain_pixel(const PreparedScene& scene, const Arguments& arguments,
                           const ExplainOptions& options) {
   const ImageSize size = arguments.size.value_or(scene.scene().size);
@@ -41,7 +30,8 @@ Explanation explain_pixel(const PreparedScene& scene, const Arguments& arguments
                  std::to_string(size.width - 1) + "," + std::to_string(size.height - 1));
   }
   Explanation result = explain(scene, camera, size, at.x, at.y, options);
-  result.pixel->camera = name_of_camera(scene.scene(), arguments.camera);
+  if (const auto index = camera_index(scene.scene(), arguments.camera))
+    result.pixel->camera = scene.scene().cameras[*index].name;
   return result;
 }
 

@@ -296,7 +296,7 @@ class Dataset(ProgramTest):
             self.assertIn(message, self.dataset(*self.views(view), code=3))
         self.assertIn("at least one view", self.dataset(*self.views(), code=3))
         # A wrong camera is refused before the first view, so the folder takes the corrected list.
-        self.assertIn("--views: view 1: there is no camera nobody",
+        self.assertIn('--views: view 1: there is no camera "nobody"',
                       self.dataset(*self.views({}, {"camera": "nobody"}), code=2, output="corrected"))
         # So are wrong variants and environments.
         self.assertIn('--views: view 2: there is no variant "red"; the scene has none',

@@ -465,7 +465,7 @@ class Explain(ProgramTest):
                 (["--ray", ",".join(["1"] * 10000)], "expects six numbers"),
                 (["--ray", "0,0,0,0,0,1,2,1"], "0 <= t_min <= t_max"),
                 (["--ray", "0,0,0,0,0,1,-1,1"], "0 <= t_min <= t_max"),
-                (["--pixel", "1,2", "-c", "nobody"], "there is no camera nobody"),
+                (["--pixel", "1,2", "-c", "nobody"], 'there is no camera "nobody"'),
                 (["--pixel", "1,2", "--fov", "40"], "--fov requires"),
                 (["--pixel", "1,2", "--spp", "4"], "unknown option --spp")):
             with self.subTest(options=str(options)[:60]):

@@ -1,5 +1,6 @@
 #include "cli/dataset/view_renderer.hpp"
 
+#include "base/named_items.hpp"
 #include "base/printable.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/options/values.hpp"
@@ -114,7 +115,11 @@ void ViewRenderer::check_camera(const DatasetView& view, std::uint32_t index) co
 
 void ViewRenderer::check_look(const DatasetView& view, std::uint32_t index) const {
   const std::string place = place_of(index);
-  if (view.variant && !view.variant->empty()) check_variant(*view.variant, place);
+  if (view.variant && !view.variant->empty()) {
+    const std::vector<std::string> names = file_->choices().variants;
+    if (!find_item(*view.variant, names))
+      throw Error(ErrorKind::usage, place, no_such_item("variant", *view.variant, names));
+  }
   if (!view.environment) return;
   const EnvironmentSource source =
       parse_environment({.option = place + ": the environment", .text = *view.environment});
@@ -122,19 +127,6 @@ void ViewRenderer::check_look(const DatasetView& view, std::uint32_t index) cons
   const auto* path = std::get_if<fs::path>(&source);
   if (path != nullptr && ::faccessat(AT_FDCWD, path->c_str(), R_OK, AT_EACCESS) != 0)
     throw Error(ErrorKind::io, place, printable(path->string()) + " can't be opened");
-}
-
-void ViewRenderer::check_variant(const std::string& wanted, const std::string& place) const {
-  const std::vector<std::string> names = file_->choices().variants;
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string number = std::to_string(i);
-    if (names[i] == wanted || number == wanted) return;
-    list.append(i == 0 ? "" : ", ").append(number).append(" (" + printable(names[i]) + ")");
-  }
-  throw Error(ErrorKind::usage, place,
-              "there is no variant \"" + printable(wanted) + "\"; " +
-                  (names.empty() ? "the scene has none" : "the scene has " + list));
 }
 
 Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, ImageSize size) const {

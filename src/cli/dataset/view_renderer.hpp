@@ -52,7 +52,6 @@ class ViewRenderer {
  private:
   [[nodiscard]] Camera camera_of(const DatasetView& view, std::uint32_t index,
                                  ImageSize size) const;
-  void check_variant(const std::string& wanted, const std::string& place) const;
   void load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings);
   /// Throws Error (usage) if BOP is written and the loaded scene has other objects than the first.
   void check_objects();

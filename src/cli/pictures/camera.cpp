@@ -1,10 +1,12 @@
 #include "cli/pictures/camera.hpp"
 
+#include "base/named_items.hpp"
 #include "scene/math/trigonometry.hpp"
 #include "scene/validate/validate.hpp"
 
-#include <cstddef>
+#include <string>
 #include <variant>
+#include <vector>
 
 namespace microtrace::cli {
 
@@ -44,6 +46,12 @@ Camera with_lens(Camera camera, const CameraOptions& options) {
   return camera;
 }
 
+std::vector<std::string> camera_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const NamedCamera& camera : scene.cameras) names.push_back(camera.name);
+  return names;
+}
+
 Camera camera_without_options(const Scene& scene, const CameraOptions& options, ImageSize size) {
   if (!options.is_of_scene()) {
     Framing framing(options.view(), size);
@@ -57,23 +65,20 @@ Camera camera_without_options(const Scene& scene, const CameraOptions& options, 
     }
     return camera_of(framing, options);
   }
-  const std::string& wanted = options.camera;
-  if (wanted.empty()) return default_camera(scene, size);
-  for (const NamedCamera& camera : scene.cameras) {
-    if (camera.name == wanted) return camera.camera;
-  }
-  const auto index = whole_number(wanted);
-  if (index && *index < scene.cameras.size()) return scene.cameras[*index].camera;
-  std::string message = options.place + ": there is no camera " + wanted + "; the scene has";
-  if (scene.cameras.empty()) message += " none: omit --camera, or use --view or --eye";
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    message += i == 0 ? " " : ", ";
-    message += std::to_string(i) + " (" + scene.cameras[i].name + ")";
-  }
-  refuse_usage(message);
+  if (options.camera.empty()) return default_camera(scene, size);
+  if (const std::optional<std::size_t> index = camera_index(scene, options))
+    return scene.cameras[*index].camera;
+  const std::vector<std::string> names = camera_names(scene);
+  const char* advice = names.empty() ? ": omit --camera, or use --view or --eye" : "";
+  refuse_usage(options.place + ": " + no_such_item("camera", options.camera, names) + advice);
 }
 
 }  // namespace
+
+std::optional<std::size_t> camera_index(const Scene& scene, const CameraOptions& options) {
+  if (!options.is_of_scene() || scene.cameras.empty()) return std::nullopt;
+  return options.camera.empty() ? 0 : find_item(options.camera, camera_names(scene));
+}
 
 Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize size) {
   return with_lens(camera_without_options(scene, options, size), options);

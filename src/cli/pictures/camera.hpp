@@ -9,6 +9,7 @@
 #include <microtrace/io.hpp>
 #include <microtrace/scene.hpp>
 
+#include <cstddef>
 #include <optional>
 
 namespace microtrace::cli {
@@ -17,6 +18,11 @@ namespace microtrace::cli {
 /// the scenes added to `framing`. The camera is in the coordinates of `framing`. Throws Error
 /// (usage).
 [[nodiscard]] PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options);
+
+/// Returns the index of the scene's camera that the options select: by default, the first. Nothing
+/// if there is none or if the options describe a camera.
+[[nodiscard]] std::optional<std::size_t> camera_index(const Scene& scene,
+                                                      const CameraOptions& options);
 
 /// Returns the camera that the options select, or the scene's default camera. If the scene has no
 /// such camera, throws Error (usage) with the names of the scene's cameras.

@@ -1,5 +1,6 @@
 #include "cli/report/warnings.hpp"
 
+#include "cli/pictures/camera.hpp"
 #include "cli/report/validation_result.hpp"
 #include "scene/support.hpp"
 
@@ -13,9 +14,8 @@ namespace microtrace::cli {
 namespace {
 
 std::string camera_name(const Arguments& arguments, const Scene& scene) {
-  const CameraOptions& options = arguments.camera;
-  if (!options.is_of_scene() || scene.cameras.empty()) return "the camera";
-  return "the camera " + (options.camera.empty() ? scene.cameras[0].name : options.camera);
+  const auto index = camera_index(scene, arguments.camera);
+  return index ? "the camera " + scene.cameras[*index].name : "the camera";
 }
 
 /// What to do if nothing is visible. A camera that frames the whole scene sees only the backs of

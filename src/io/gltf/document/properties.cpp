@@ -27,4 +27,10 @@ std::string name_of(const JsonValue& object) {
   return name != nullptr ? name->string() : std::string();
 }
 
+std::vector<std::string> names_of(std::span<const JsonValue> objects) {
+  std::vector<std::string> names(objects.size());
+  std::ranges::transform(objects, names.begin(), name_of);
+  return names;
+}
+
 }  // namespace microtrace::io::gltf

@@ -5,8 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace microtrace::io::gltf {
 
@@ -32,5 +34,7 @@ template <typename Vector>
 
 /// Returns the object's name. Empty if absent.
 [[nodiscard]] std::string name_of(const JsonValue& object);
+/// Returns the names of objects. Empty where absent.
+[[nodiscard]] std::vector<std::string> names_of(std::span<const JsonValue> objects);
 
 }  // namespace microtrace::io::gltf

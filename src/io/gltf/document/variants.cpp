@@ -1,7 +1,8 @@
 #include "io/gltf/document/variants.hpp"
 
-#include "base/printable.hpp"
+#include "base/named_items.hpp"
 #include "io/gltf/document/extension.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,31 +13,22 @@ namespace {
 
 constexpr const char* kExtensionName = "KHR_materials_variants";
 
-std::size_t index_of(const Asset& asset, const std::string& wanted) {
+}  // namespace
+
+std::vector<std::string> variant_names(const Asset& asset) {
   const std::optional<Element> root = extension(asset.root(), kExtensionName);
   const JsonValue* variants = root ? root->value->find("variants") : nullptr;
-  if (variants == nullptr) {
-    throw Error(ErrorKind::usage, asset.file(), "has no variants; leave out --variant");
-  }
-  std::string names;
-  for (std::size_t i = 0; i < variants->items().size(); ++i) {
-    const JsonValue* name = variants->items()[i].find("name");
-    if (name != nullptr && name->string() == wanted) return i;
-    names += (i == 0 ? "" : ", ") + std::to_string(i);
-    if (name != nullptr) names += " (" + printable(name->string()) + ")";
-  }
-  for (std::size_t i = 0; i < variants->items().size(); ++i) {
-    if (std::to_string(i) == wanted) return i;
-  }
-  throw Error(ErrorKind::usage, asset.file(),
-              "there is no variant " + in_quotes(wanted) + "; the asset has " + names);
+  return variants != nullptr ? names_of(variants->items()) : std::vector<std::string>();
 }
-
-}  // namespace
 
 void choose_variant(const Asset& asset, const std::string& variant, Model& model) {
   if (variant.empty()) return;
-  const auto wanted = static_cast<double>(index_of(asset, variant));
+  const std::vector<std::string> names = variant_names(asset);
+  if (names.empty())
+    throw Error(ErrorKind::usage, asset.file(), "has no variants; leave out --variant");
+  const std::optional<std::size_t> index = find_item(variant, names);
+  if (!index) throw Error(ErrorKind::usage, asset.file(), no_such_item("variant", variant, names));
+  const auto wanted = static_cast<double>(*index);
   for (std::size_t i = 0; i < model.meshes.size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");
     for (std::size_t k = 0; k < model.meshes[i].primitives.size(); ++k) {

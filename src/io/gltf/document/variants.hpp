@@ -5,8 +5,12 @@
 #include "io/gltf/document/model.hpp"
 
 #include <string>
+#include <vector>
 
 namespace microtrace::io::gltf {
+
+/// Returns the names of the asset's variants. Empty where absent.
+[[nodiscard]] std::vector<std::string> variant_names(const Asset& asset);
 
 /// Assigns the materials of a variant to primitives. The variant is given by name or by index from
 /// 0. An empty text keeps the materials that the file assigns. Throws an Error (usage) that lists

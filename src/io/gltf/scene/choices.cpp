@@ -1,19 +1,14 @@
 #include "io/gltf/scene/choices.hpp"
 
-#include "io/gltf/document/extension.hpp"
+#include "io/gltf/document/properties.hpp"
+#include "io/gltf/document/variants.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <string>
 
 namespace microtrace::io::gltf {
 namespace {
-
-std::string name_or_empty(const JsonValue& value) {
-  const JsonValue* name = value.find("name");
-  return name != nullptr ? name->string() : std::string();
-}
 
 /// The last time of an animation's keyframes, which glTF requires as the maximum of their accessor
 /// (section 3.11).
@@ -36,16 +31,9 @@ double end_of(const Asset& asset, const JsonValue& animation) {
 }  // namespace
 
 SceneChoices choices_of(const Asset& asset) {
-  SceneChoices choices;
-  if (const std::optional<Element> root = extension(asset.root(), "KHR_materials_variants")) {
-    if (const JsonValue* variants = root->value->find("variants")) {
-      for (const JsonValue& variant : variants->items())
-        choices.variants.push_back(name_or_empty(variant));
-    }
-  }
+  SceneChoices choices{.variants = variant_names(asset)};
   for (const JsonValue& animation : asset.array("animations"))
-    choices.animations.push_back(
-        {.name = name_or_empty(animation), .end = end_of(asset, animation)});
+    choices.animations.push_back({.name = name_of(animation), .end = end_of(asset, animation)});
   return choices;
 }
 

@@ -1,0 +1,35 @@
+#include "base/named_items.hpp"
+
+#include "base/printable.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+namespace microtrace {
+
+std::optional<std::size_t> find_item(std::string_view wanted, std::span<const std::string> names) {
+  const auto named = std::ranges::find(names, wanted);
+  if (!wanted.empty() && named != names.end())
+    return static_cast<std::size_t>(named - names.begin());
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+  const bool is_index = error == std::errc() && end == wanted.data() + wanted.size();
+  return is_index && index < names.size() ? std::optional(index) : std::nullopt;
+}
+
+std::string no_such_item(std::string_view kind, std::string_view wanted,
+                         std::span<const std::string> names) {
+  constexpr std::size_t kShown = 20, kLength = 64;
+  std::string text = "there is no ";
+  text.append(kind).append(" ").append(in_quotes(wanted)).append("; the scene has ");
+  if (names.empty()) return text += "none";
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) {
+    const std::string name = names[i].empty() ? "unnamed" : printable(names[i].substr(0, kLength));
+    text.append(i == 0 ? "" : ", ").append(std::to_string(i)).append(" (").append(name).append(")");
+  }
+  if (names.size() > kShown) text.append(", ... ").append(std::to_string(names.size() - 1));
+  return text;
+}
+
+}  // namespace microtrace
