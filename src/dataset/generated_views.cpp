@@ -1,3 +1,4 @@
+#include "base/split_mix.hpp"
 #include "scene/math/trigonometry.hpp"
 
 #include <microtrace/dataset.hpp>
@@ -16,13 +17,9 @@ DatasetView view_at(double azimuth, double height) {
   return {.camera = View{.azimuth = azimuth, .elevation = elevation}};
 }
 
-/// Returns a number in [0, 1): SplitMix64 (G. Steele, D. Lea and C. Flood, Fast splittable
-/// pseudorandom number generators, 2014) at position `index`.
+/// Returns the random number at position `index`, in [0, 1).
 double random(std::uint64_t seed, std::uint64_t index) {
-  std::uint64_t z = (seed << 32U) + (index + 1) * 0x9e3779b97f4a7c15U;
-  z = (z ^ z >> 30U) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ z >> 27U) * 0x94d049bb133111ebU;
-  return static_cast<double>((z ^ z >> 31U) >> 11U) * 0x1p-53;
+  return static_cast<double>(split_mix(index + 1, seed << 32U) >> 11U) * 0x1p-53;
 }
 
 }  // namespace

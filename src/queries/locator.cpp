@@ -2,6 +2,7 @@
 
 #include "accel/build/wide/wide_tree.hpp"
 #include "accel/filters/shape_filter.hpp"
+#include "base/split_mix.hpp"
 #include "exact/crossing.hpp"
 #include "exact/range.hpp"
 #include "queries/ray_search.hpp"
@@ -13,19 +14,6 @@
 #include <limits>
 
 namespace microtrace {
-namespace {
-
-/// Returns random bits by SplitMix64 (G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom
-/// number generators, OOPSLA 2014).
-std::uint64_t scrambled(std::uint64_t x) {
-  x = (x + 1) * 0x9E3779B97F4A7C15ULL;
-  x = (x ^ x >> 30U) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ x >> 27U) * 0x94D049BB133111EBULL;
-  return x ^ x >> 31U;
-}
-
-}  // namespace
-
 /// The direction follows the axis of the shortest way out of the tree's bounds, where the ray
 /// crosses the fewest triangles. It is turned slightly away from the axis, because many meshes have
 /// edges parallel to the axes. Each attempt uses different random numbers.
@@ -40,7 +28,7 @@ Vec3 crossing_direction(const Bounds& bounds, const Vec3& p, std::uint64_t attem
   }
   Vec3 d{0};
   d[axis] = is_negative ? -1.0F : 1.0F;
-  const std::uint64_t bits = scrambled(attempt);
+  const std::uint64_t bits = split_mix(attempt + 1);
   // Returns an odd integer times 2^-28 with a random sign and a magnitude between 1/64 and 1/16.
   const auto turn = [](std::uint64_t from) {
     constexpr std::uint64_t kLow = (1U << 22U) - 1;

@@ -1,8 +1,8 @@
 #include "dataset/annotations/bop_models.hpp"
 
+#include "base/little_endian.hpp"
 #include "dataset/annotations/bop_names.hpp"
 #include "dataset/annotations/json_text.hpp"
-#include "dataset/annotations/little_endian.hpp"
 #include "dataset/annotations/mesh_points.hpp"
 
 #include <algorithm>

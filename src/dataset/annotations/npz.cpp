@@ -1,7 +1,7 @@
 #include "dataset/annotations/npz.hpp"
 
 #include "base/crc32.hpp"
-#include "dataset/annotations/little_endian.hpp"
+#include "base/little_endian.hpp"
 
 #include <microtrace/error.hpp>
 

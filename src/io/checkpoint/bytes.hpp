@@ -1,21 +1,13 @@
 #pragma once
-/// Little-endian encoding of numbers.
+/// Reads little-endian numbers.
 
-#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace microtrace::io {
-
-template <std::unsigned_integral Number>
-void append(std::string& bytes, Number value) {
-  for (std::size_t i = 0; i < sizeof(Number); ++i)
-    bytes += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
-}
 
 /// Reads numbers from the front of a byte string.
 class ByteReader {

@@ -1,3 +1,4 @@
+#include "base/little_endian.hpp"
 #include "base/memory_account.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint/bytes.hpp"
@@ -36,25 +37,24 @@ constexpr std::size_t kLeastBlock = 16;  // bytes
 enum class Values : std::uint32_t { computed, floats, integers };
 
 std::string encode_head(const Checkpoint& checkpoint) {
-  using io::append;
   const SampleSums& sums = checkpoint.sums;
   std::string bytes(kMagic);
-  append(bytes, kVersion);
-  append(bytes, static_cast<std::uint32_t>(checkpoint.identity.size()));
+  append_little(bytes, kVersion);
+  append_little(bytes, static_cast<std::uint32_t>(checkpoint.identity.size()));
   bytes += checkpoint.identity;
-  append(bytes, std::uint32_t{checkpoint.has_alpha});
-  append(bytes, checkpoint.samples);
-  append(bytes, std::bit_cast<std::uint64_t>(checkpoint.display.exposure));
-  append(bytes, static_cast<std::uint32_t>(checkpoint.display.tone_map));
+  append_little(bytes, std::uint32_t{checkpoint.has_alpha});
+  append_little(bytes, checkpoint.samples);
+  append_little(bytes, std::bit_cast<std::uint64_t>(checkpoint.display.exposure));
+  append_little(bytes, static_cast<std::uint32_t>(checkpoint.display.tone_map));
   for (const std::uint32_t number : {sums.whole.width, sums.whole.height, sums.window.x0,
                                      sums.window.y0, sums.window.x1, sums.window.y1})
-    append(bytes, number);
+    append_little(bytes, number);
   for (const float number : {sums.background.x, sums.background.y, sums.background.z})
-    append(bytes, std::bit_cast<std::uint32_t>(number));
-  append(bytes, static_cast<std::uint32_t>(sums.ranges().size()));
+    append_little(bytes, number);
+  append_little(bytes, static_cast<std::uint32_t>(sums.ranges().size()));
   for (const SampleRange& range : sums.ranges()) {
-    append(bytes, range.first);
-    append(bytes, range.last);
+    append_little(bytes, range.first);
+    append_little(bytes, range.last);
   }
   return bytes;
 }
@@ -130,7 +130,7 @@ class CheckpointWriter {
     io::for_each_block(std::span(values), [&](std::span<const Value> block) {
       const std::string_view encoded = blocks_.encode(block);
       std::string size;
-      io::append(size, static_cast<std::uint32_t>(encoded.size()));
+      append_little(size, static_cast<std::uint32_t>(encoded.size()));
       write(size);
       write(encoded);
     });
@@ -140,18 +140,18 @@ class CheckpointWriter {
     const bool is_computed = is_computed_channel(channel.name);
     const bool is_float = std::holds_alternative<std::vector<float>>(channel.values);
     std::string head;
-    io::append(head, static_cast<std::uint32_t>(channel.name.size()));
+    append_little(head, static_cast<std::uint32_t>(channel.name.size()));
     head += channel.name;
-    io::append(head, static_cast<std::uint32_t>(is_computed ? Values::computed
-                                                : is_float  ? Values::floats
-                                                            : Values::integers));
+    append_little(head, static_cast<std::uint32_t>(is_computed ? Values::computed
+                                                   : is_float  ? Values::floats
+                                                               : Values::integers));
     write(head);
     if (!is_computed) std::visit([&](const auto& values) { write_blocks(values); }, channel.values);
   }
 
   void commit() {
     std::string end;
-    io::append(end, digest_.value());
+    append_little(end, digest_.value());
     file_.write(end);
     file_.sync();
     file_.commit();
@@ -209,7 +209,7 @@ void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& 
   file.write(encode_head(checkpoint));
   file.write_blocks(checkpoint.sums.pixels);
   std::string count;
-  io::append(count, static_cast<std::uint32_t>(checkpoint.channels.size()));
+  append_little(count, static_cast<std::uint32_t>(checkpoint.channels.size()));
   file.write(count);
   for (const Channel& channel : checkpoint.channels) file.write(channel);
   file.commit();

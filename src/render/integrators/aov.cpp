@@ -1,3 +1,4 @@
+#include "base/split_mix.hpp"
 #include "float_environment.hpp"
 #include "render/aovs/sights.hpp"
 
@@ -15,15 +16,10 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A color for an id. It is never dark. A bit mixer, S. Vigna's SplitMix64, gives consecutive ids
-/// different colors.
+/// A color for an id. It is never dark. Consecutive ids have different colors.
 Vec3 color_of_id(std::uint32_t id) {
-  std::uint64_t x = id * std::uint64_t{0x9E3779B97F4A7C15};
-  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9;
-  x = (x ^ x >> 27) * 0x94D049BB133111EB;
-  x ^= x >> 31;
-  const auto part = [x](int shift) {
-    return 0.25F + 0.75F * static_cast<float>(x >> shift & 0xFFU) / 255;
+  const auto part = [bits = split_mix(id)](int shift) {
+    return 0.25F + 0.75F * static_cast<float>(bits >> shift & 0xFFU) / 255;
   };
   return {part(0), part(8), part(16)};
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace microtrace::dataset {
+namespace microtrace {
 
 /// Appends an unsigned integer, lowest byte first.
 template <std::unsigned_integral Number>
@@ -18,4 +18,4 @@ inline void append_little(std::string& bytes, float number) {
   append_little(bytes, std::bit_cast<std::uint32_t>(number));
 }
 
-}  // namespace microtrace::dataset
+}  // namespace microtrace
