@@ -188,8 +188,8 @@ MICROTRACE_EXPORT void check_image_path(const std::filesystem::path& path,
 MICROTRACE_EXPORT void check_sidecar_path(const std::filesystem::path& path,
                                           const std::filesystem::path& picture);
 
-/// Removes the temporary files of pictures that are being saved. May be called in a signal handler
-/// that then ends the process.
+/// Removes the temporary files of pictures that are being saved, and temporary folders. May be
+/// called in a signal handler that then ends the process.
 MICROTRACE_EXPORT void remove_unfinished_files() noexcept;
 
 /// Returns the bytes of a PPM file. Throws Error (usage) for a film with alpha.

@@ -1,5 +1,7 @@
 #include "cli/temporary_folder.hpp"
 
+#include "io/unfinished_files.hpp"
+
 #include <microtrace/error.hpp>
 
 #include <cstdlib>
@@ -16,11 +18,13 @@ TemporaryFolder::TemporaryFolder() {
   if (error || ::mkdtemp(pattern.data()) == nullptr)
     throw Error(ErrorKind::io, pattern, "can't be created; set TMPDIR to a folder with space");
   path_ = pattern;
+  slot_ = io::note_unfinished_file(path_.c_str());
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+  io::forget_unfinished_file(slot_);
 }
 
 }  // namespace microtrace::cli

@@ -3,7 +3,7 @@
 
 namespace microtrace::cli {
 
-/// A folder that is removed, with its files, at the end. A signal that ends the program leaves it.
+/// A folder that is removed, with its files, at the end and by signals that end the program.
 class TemporaryFolder {
  public:
   /// Throws Error (io).
@@ -16,6 +16,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  int slot_;
 };
 
 }  // namespace microtrace::cli

@@ -288,6 +288,20 @@ class Dataset(ProgramTest):
         self.dataset(*allowed, scene="asset/scene.json")
         self.assertIn("2 views rendered again: the same", self.verify("--redraw", "2"))
 
+    def test_signals_leave_no_temporary_folder(self):
+        self.dataset("--views", "orbit:3", "--size", "120x80", "--integrator", "path", "--spp", "64", "--formats", "png,bop")
+        temporary = self.folder / "temporary"
+        temporary.mkdir()
+        for end in (signal.SIGTERM, signal.SIGHUP):
+            process = subprocess.Popen([PROGRAM, "verify", "out", "--redraw", "3"], cwd=self.folder, stderr=subprocess.PIPE,
+                                       env=environment(TMPDIR=str(temporary)))
+            while process.poll() is None and not any(path.is_file() for path in temporary.rglob("*")):
+                time.sleep(0.01)
+            process.send_signal(end)
+            process.communicate()
+            self.assertEqual(process.returncode, 128 + end)
+            self.assertEqual(os.listdir(temporary), [])
+
     def test_wrong_views(self):
         for view, message in (({"camera": {"type": "fish"}}, "fish"), ({"time": -1}, "/views/0/time"),
                               ({"name": "../x"}, "/views/0/name"), ({"sizes": 1}, "sizes"),
