@@ -1,14 +1,11 @@
+#include "dataset/dataset_json.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file.hpp"
-#include "io/json/reader.hpp"
-#include "io/json/write.hpp"
 
 #include <microtrace/dataset.hpp>
 #include <microtrace/digest.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <fstream>
 #include <utility>
 
@@ -20,75 +17,8 @@ using io::JsonReader;
 
 constexpr std::size_t kMaxRecord = std::size_t{64} << 20U;  ///< bytes of a JSON file of ours
 
-std::string hexadecimal(std::uint64_t number) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t i = 16; i-- > 0; number >>= 4U) text[i] = kDigits[number & 15U];
-  return text;
-}
-
-std::uint64_t read_hexadecimal(const JsonReader& json) {
-  const std::string text = json.string();
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, 16);
-  if (error != std::errc() || end != text.data() + text.size() || text.size() != 16)
-    json.fail("must be 16 hexadecimal digits");
-  return number;
-}
-
-void append_member(std::string& text, std::string_view name, std::string_view value) {
-  io::append_json(text, name);
-  text += ": ";
-  io::append_json(text, value);
-}
-
-void append_file(std::string& text, const DatasetFile& file) {
-  text += '{';
-  append_member(text, "name", file.name);
-  text.append(", \"size\": ").append(std::to_string(file.size)).append(", ");
-  append_member(text, "digest", hexadecimal(file.digest));
-  text += '}';
-}
-
-std::string text_of(const DatasetIdentity& identity) {
-  std::string text = "{\n  ";
-  append_member(text, "program", identity.program);
-  append_member(text += ",\n  ", "scene", identity.scene);
-  append_member(text += ",\n  ", "digest", hexadecimal(identity.digest));
-  append_member(text += ",\n  ", "options", identity.options);
-  text.append(",\n  \"views\": ").append(std::to_string(identity.views));
-  append_member(text += ",\n  ", "folder", identity.folder);
-  text += ",\n  \"arguments\": [";
-  for (const std::string& argument : identity.arguments) {
-    if (text.back() != '[') text += ", ";
-    io::append_json(text, argument);
-  }
-  return text += "]\n}\n";
-}
-
 DatasetIdentity read_identity(const fs::path& path) {
-  const std::string text = io::read_file(path, kMaxRecord);
-  const io::JsonDocument document(text, path.string());
-  const JsonReader root(document);
-  root.require_object({"program", "scene", "digest", "options", "views", "folder", "arguments"});
-  DatasetIdentity identity{.program = root.member("program").string(),
-                           .scene = root.member("scene").string(),
-                           .digest = read_hexadecimal(root.member("digest")),
-                           .options = root.member("options").string(),
-                           .folder = root.member("folder").string()};
-  const std::uint64_t views = root.member("views").count();
-  if (views > 0xffffffff) root.member("views").fail("is too large");
-  identity.views = static_cast<std::uint32_t>(views);
-  for (const JsonReader& item : root.member("arguments").items())
-    identity.arguments.push_back(item.string());
-  return identity;
-}
-
-DatasetFile read_file_entry(const JsonReader& json) {
-  json.require_object({"name", "size", "digest"});
-  return {.name = json.member("name").string(),
-          .size = json.member("size").count(),
-          .digest = read_hexadecimal(json.member("digest"))};
+  return read_own(io::read_file(path, kMaxRecord), path, identity_of);
 }
 
 /// Returns the first difference between two data sets.
@@ -192,8 +122,13 @@ DatasetFolder::DatasetFolder(fs::path path, const DatasetIdentity& identity)
   create_folder(path_ / "records");
 }
 
-DatasetFolder::DatasetFolder(fs::path path)
-    : path_(std::move(path)), identity_(read_identity(path_ / "dataset.json")) {}
+DatasetFolder::DatasetFolder(fs::path path) : path_(std::move(path)) {
+  const fs::path file = path_ / "dataset.json";
+  std::error_code error;
+  if (fs::is_directory(path_, error) && !fs::exists(file, error))
+    throw Error(ErrorKind::io, path_.string(), "is not a data set: it has no dataset.json");
+  identity_ = read_identity(file);
+}
 
 fs::path DatasetFolder::record(std::uint32_t view) const {
   return path_ / dataset_file_name("records/{view:06d}.json", "", view, "");
@@ -206,15 +141,15 @@ std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view)
   const std::string text = io::read_file(path, kMaxRecord);
   // A power failure can leave a record without its content.
   try {
-    const io::JsonDocument document(text, path.string());
-    const JsonReader root(document);
-    root.require_object({"view", "files"});
-    std::vector<DatasetFile> files;
-    for (const JsonReader& item : root.member("files").items())
-      files.push_back(read_file_entry(item));
-    return files;
+    return read_own(text, path, [](const JsonReader& root) {
+      root.require_object({"view", "files"});
+      std::vector<DatasetFile> files;
+      for (const JsonReader& item : root.member("files").items())
+        files.push_back(read_file_entry(item));
+      return files;
+    });
   } catch (const Error& failure) {
-    if (failure.kind() != ErrorKind::invalid_scene) throw;
+    if (failure.kind() != ErrorKind::io) throw;
     return std::nullopt;
   }
 }
@@ -227,8 +162,7 @@ std::vector<DatasetFile> DatasetFolder::manifest() const {
   for (std::string line; std::getline(lines, line);) {
     if (line == "[" || line == "]" || line.empty()) continue;
     if (line.back() == ',') line.pop_back();
-    const io::JsonDocument document(line, path.string());
-    files.push_back(read_file_entry(JsonReader(document)));
+    files.push_back(read_own(line, path, read_file_entry));
   }
   if (!lines.eof()) throw Error(ErrorKind::io, path.string(), "can't be read");
   return files;

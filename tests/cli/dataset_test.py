@@ -288,6 +288,22 @@ class Dataset(ProgramTest):
         self.dataset(*allowed, scene="asset/scene.json")
         self.assertIn("2 views rendered again: the same", self.verify("--redraw", "2"))
 
+    def test_damaged_and_missing_lists(self):
+        options = ["--views", "orbit:2", *SMALL]
+        self.dataset(*options)
+        folder = self.folder / "out"
+        for name, command in (("manifest.json", self.verify), ("dataset.json", self.verify), ("dataset.json", lambda code: self.dataset(*options, code=code))):
+            text = (folder / name).read_text()
+            for damaged in ("", text[:-20], text.replace("{", "[", 1)):
+                (folder / name).write_text(damaged)
+                message = command(code=5)
+                self.assertIn(name, message)
+                self.assertNotIn("the same", message)
+            (folder / name).write_text(text)
+        self.verify()
+        (folder / "dataset.json").unlink()
+        self.assertEqual(self.verify(code=5), f"error: {folder}: is not a data set: it has no dataset.json\n")
+
     def test_signals_leave_no_temporary_folder(self):
         self.dataset("--views", "orbit:3", "--size", "120x80", "--integrator", "path", "--spp", "64", "--formats", "png,bop")
         temporary = self.folder / "temporary"
