@@ -21,7 +21,7 @@ namespace microtrace {
 /// A picture of a prepared scene.
 struct AnnotatedPicture {
   std::uint32_t index = 0;  ///< id of the image
-  std::string file{};       ///< name of the picture's file, for COCO
+  std::string file{};       ///< name of the picture's file, for COCO; empty if there is none
   Camera camera{};          ///< in scene coordinates, as in Scene::cameras
   ImageSize size{};
   /// The values of the channel id.instance, row by row: 0 where nothing is visible, else the
@@ -72,10 +72,14 @@ struct Annotations {
   BopAnnotations bop;
 };
 
+/// Throws Error (usage), with `place` as its file, if BOP can't describe the camera: if it is
+/// neither a perspective camera nor a calibrated camera without distortion.
+MICROTRACE_EXPORT void require_bop_camera(const Camera& camera, const std::string& place);
+
 /// Makes the annotations of one picture. In BOP, the picture's index is the im_id. Throws Error:
-/// usage if `ids` or, for BOP, `depth` doesn't have one value per pixel, or if the camera for BOP
-/// is neither a perspective camera nor a calibrated camera without distortion; unsupported if BOP
-/// is requested but the module for PNG is not installed; limit if memory runs out.
+/// usage if `ids` or, for BOP, `depth` doesn't have one value per pixel, or as require_bop_camera()
+/// does; unsupported if BOP is requested but the module for PNG is not installed; limit if memory
+/// runs out.
 [[nodiscard]] MICROTRACE_EXPORT Annotations annotate(const PreparedScene& scene,
                                                      const AnnotatedPicture& picture,
                                                      const AnnotationFormats& formats,

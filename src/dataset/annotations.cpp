@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace microtrace {
@@ -56,6 +57,17 @@ void write_joined(const fs::path& path, const Join& join) {
 }
 
 }  // namespace
+
+void require_bop_camera(const Camera& camera, const std::string& place) {
+  const auto* calibrated = std::get_if<CalibratedCamera>(&camera);
+  const bool is_plain =
+      calibrated != nullptr && calibrated->distortion == Distortion(RationalDistortion{});
+  if (std::holds_alternative<PerspectiveCamera>(camera) || is_plain) return;
+  throw Error(
+      ErrorKind::usage, place,
+      "BOP describes cameras by a matrix K; use a perspective camera or a calibrated camera "
+      "without distortion");
+}
 
 Annotations annotate(const PreparedScene& scene, const AnnotatedPicture& picture,
                      const AnnotationFormats& formats, unsigned threads) {

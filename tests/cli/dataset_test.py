@@ -288,6 +288,15 @@ class Dataset(ProgramTest):
         self.dataset(*allowed, scene="asset/scene.json")
         self.assertIn("2 views rendered again: the same", self.verify("--redraw", "2"))
 
+    def test_coco_names_pictures_that_exist(self):
+        for formats, name in (("exr,png,npz", "000001.png"), ("exr,npz", "000001.exr"), ("npz,bop", "000001.npz"),
+                              ("bop", "bop/train/000000/rgb/000001.png"), ("", None)):
+            output = "out" + formats
+            self.dataset("--views", "orbit:2", "--formats", formats + ",coco" if formats else "coco", *SMALL, output=output)
+            image = json.loads((self.folder / output / "coco.json").read_text())["images"][1]
+            self.assertEqual((image["id"], image.get("file_name")), (1, name))
+            self.assertTrue(name is None or (self.folder / output / name).exists())
+
     def test_damaged_and_missing_lists(self):
         options = ["--views", "orbit:2", *SMALL]
         self.dataset(*options)
@@ -334,6 +343,17 @@ class Dataset(ProgramTest):
         self.assertIn("--views: view 1: no.hdr can't be opened",
                       self.dataset(*self.views({}, {"environment": {"light": "no.hdr"}}), code=5, output="corrected"))
         self.dataset(*self.views({}, {"camera": "0"}), output="corrected")
+        # So are cameras that BOP can't describe, and those of --camera.
+        fisheye = {"camera": {"type": "environment", "position": [0, 0, 0], "direction": [0, 0, -1]}}
+        self.assertIn("--views: view 2: BOP describes cameras by a matrix K",
+                      self.dataset(*self.views({}, {"camera": "0"}, fisheye), "--formats", "bop", code=2, output="new"))
+        scene = self.folder / "environment.json"
+        scene.write_text(json.dumps({"version": 1, "cameras": [{"name": "all", **fisheye["camera"]}],
+                                     "objects": [{"type": "sphere", "center": [0, 0, -4], "radius": 1}]}))
+        for options in ((), self.views({}), self.views({"camera": "all"})):
+            self.assertIn("--views: view 0: BOP describes", self.dataset(*options, "--formats", "bop", scene=scene, code=2, output="new"))
+        self.assertIn("--camera: there is no camera", self.dataset("--camera", "nobody", code=2, output="new"))
+        self.assertFalse((self.folder / "new").exists())
         for generator in ("orbit:0", "orbit:3,91", "hemisphere:2.5", "random:3,4", "orbit:"):
             self.assertIn("--views: expects", self.dataset("--views", generator, code=2))
         for pattern in ("fixed", "{x}", "../{view}", "/{view}", "{view"):

@@ -223,6 +223,11 @@ class Sidecar(ProgramTest):
         self.assertEqual(self.run_program(*options, "-o", "c.exr", "--sidecar", "d.json", "-t", "3").returncode, 0)
         self.assertEqual((self.folder / "d.json").read_bytes(), first)
 
+    def test_names_that_are_not_utf8(self):
+        name = os.fsdecode(b"a\xffb.ppm")
+        self.assertEqual(self.run_program(SOURCE / "scenes/perspective1.json", "-o", name, "--sidecar", "s.json", "--size", "8x6").returncode, 0)
+        self.assertEqual(json.loads((self.folder / "s.json").read_text())["picture"], "a\ufffdb.ppm")
+
     def test_picture_and_sidecar_are_not_mixed_in_a_pipe(self):
         for sidecar in ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
             result = self.run_program(SOURCE / "scenes/gltf/cube.glb", "--size", "20x15", "-o", "-", "--sidecar", sidecar)

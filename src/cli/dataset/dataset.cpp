@@ -18,6 +18,7 @@
 #include <string>
 #include <system_error>
 #include <tuple>
+#include <variant>
 
 namespace microtrace::cli {
 namespace {
@@ -95,7 +96,11 @@ Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
   check_names(arguments_, views_);
   renderer_.emplace(arguments_, warnings_);
   renderer_->load(views_.front());  // the same view in all shards, so that the digests agree
-  for (std::uint32_t i = 0; i < views_.size(); ++i) renderer_->check_camera(views_[i], i);
+  std::set<std::string> cameras;    // each name is checked once
+  for (std::uint32_t i = 0; i < views_.size(); ++i) {
+    const auto* name = std::get_if<std::string>(&views_[i].camera);
+    if (name == nullptr || cameras.insert(*name).second) renderer_->check_camera(views_[i], i);
+  }
   for_each_look(views_, [&](std::uint32_t i) { renderer_->check_look(views_[i], i); });
   identity_ = identity_of(arguments_, views_, digest.value(), renderer_->denoiser());
 }

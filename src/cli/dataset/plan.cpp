@@ -126,6 +126,18 @@ std::string annotations_name(const Arguments& arguments, const DatasetView& view
          (format == DatasetFormat::bop ? ".bop.txt" : ".coco.txt");
 }
 
+std::string picture_name(const Arguments& arguments, const DatasetView& view, std::uint32_t index) {
+  const std::string stem = stem_of(arguments, view, index);
+  if (writes(arguments, DatasetFormat::png)) return stem + ".png";
+  if (writes(arguments, DatasetFormat::exr)) return stem + ".exr";
+  if (writes(arguments, DatasetFormat::npz)) return stem + ".npz";
+  return writes(arguments, DatasetFormat::bop) ? bop_picture_name(index) : "";
+}
+
+std::string bop_picture_name(std::uint32_t index) {
+  return kBopScene + dataset_file_name("rgb/{view:06d}.png", "", index, "");
+}
+
 bool writes(const Arguments& arguments, DatasetFormat format) {
   const std::vector<DatasetFormat>& formats = arguments.dataset.formats;
   return std::ranges::find(formats, format) != formats.end();

@@ -23,6 +23,13 @@ namespace microtrace::cli {
 [[nodiscard]] std::string annotations_name(const Arguments& arguments, const DatasetView& view,
                                            std::uint32_t index, DatasetFormat format);
 
+/// The name of the picture that the data set has of a view, for COCO; empty if it has none.
+[[nodiscard]] std::string picture_name(const Arguments& arguments, const DatasetView& view,
+                                       std::uint32_t index);
+
+/// The name of the color picture of BOP.
+[[nodiscard]] std::string bop_picture_name(std::uint32_t index);
+
 /// Returns true if the data set has files of this format.
 [[nodiscard]] bool writes(const Arguments& arguments, DatasetFormat format);
 

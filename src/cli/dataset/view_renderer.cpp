@@ -13,7 +13,9 @@
 
 #include <algorithm>
 #include <fcntl.h>
+#include <span>
 #include <string>
+#include <string_view>
 #include <unistd.h>
 #include <utility>
 
@@ -31,6 +33,14 @@ void create_folder_of(const fs::path& path) {
 Camera in_scene(const Scene& scene, Camera camera) {
   std::visit([&](auto& c) { c.pose.position -= scene.origin; }, camera);
   return camera;
+}
+
+/// Returns the values of a channel; empty if the film lacks it.
+template <class Number>
+std::span<const Number> values_of(const Film& film, std::string_view name) {
+  const auto found = std::ranges::find(film.channels, name, &Channel::name);
+  if (found == film.channels.end()) return {};
+  return std::get<std::vector<Number>>(found->values);
 }
 
 std::string place_of(std::uint32_t index) {
@@ -109,8 +119,16 @@ void ViewRenderer::check_objects() {
 }
 
 void ViewRenderer::check_camera(const DatasetView& view, std::uint32_t index) const {
-  const auto* name = std::get_if<std::string>(&view.camera);
-  if (name != nullptr && !name->empty()) (void)camera_of(view, index, {});
+  const auto* camera = std::get_if<Camera>(&view.camera);
+  if (std::holds_alternative<std::string>(view.camera)) {
+    const CameraOptions options = camera_options(view, index);
+    if (!options.camera.empty()) (void)choose_camera(*scene_, options, {});
+    const std::optional<std::size_t> known = camera_index(*scene_, options);
+    if (known) camera = &scene_->cameras[*known].camera;
+  }
+  // The cameras of other views frame the scene, so they are perspective.
+  if (camera != nullptr && writes(arguments_, DatasetFormat::bop))
+    require_bop_camera(*camera, place_of(index));
 }
 
 void ViewRenderer::check_look(const DatasetView& view, std::uint32_t index) const {
@@ -129,20 +147,24 @@ void ViewRenderer::check_look(const DatasetView& view, std::uint32_t index) cons
     throw Error(ErrorKind::io, place, printable(path->string()) + " can't be opened");
 }
 
-Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, ImageSize size) const {
-  if (const auto* camera = std::get_if<Camera>(&view.camera)) return in_scene(*scene_, *camera);
-  CameraOptions options = arguments_.camera;
+CameraOptions ViewRenderer::camera_options(const DatasetView& view, std::uint32_t index) const {
+  const auto* name = std::get_if<std::string>(&view.camera);
+  if (name != nullptr && name->empty()) return arguments_.camera;
+  CameraOptions options;
   if (const auto* direction = std::get_if<View>(&view.camera)) {
-    options = {};
     options.orbit = OrbitView{.view = *direction};
     options.lens_radius = arguments_.camera.lens_radius;
     options.focus = arguments_.camera.focus;
-  } else if (const auto& name = std::get<std::string>(view.camera); !name.empty()) {
-    options = {};
-    options.camera = name;
+  } else if (name != nullptr) {
+    options.camera = *name;
     options.place = place_of(index);
   }
-  return choose_camera(*scene_, options, size);
+  return options;
+}
+
+Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, ImageSize size) const {
+  if (const auto* camera = std::get_if<Camera>(&view.camera)) return in_scene(*scene_, *camera);
+  return choose_camera(*scene_, camera_options(view, index), size);
 }
 
 std::string ViewRenderer::save_picture(Film& film, const std::string& name,
@@ -179,62 +201,79 @@ void ViewRenderer::save_annotations(const DatasetView& view, const AnnotatedPict
   if (!is_bop) return;
   for (const NamedFile& file : annotations.bop.files) save(kBopScene + file.name, file.bytes);
   save_part(DatasetFormat::bop, annotations.bop.part);
-  const std::string color = dataset_file_name("rgb/{view:06d}.png", "", picture.index, "");
-  names.push_back(save_picture(film, kBopScene + color, folder));
+  names.push_back(save_picture(film, bop_picture_name(picture.index), folder));
+}
+
+void ViewRenderer::prepare(const DatasetView& view) {
+  load(view);
+  if (prepared_) return;
+  prepared_.emplace(scene_, PrepareOptions{.threads = threads(),
+                                           .memory = &memory_,
+                                           .tables = std::exchange(tables_, nullptr)});
+  tables_ = prepared_->tables();
+}
+
+unsigned ViewRenderer::threads() const {
+  return arguments_.threads != 0 ? arguments_.threads : default_threads();
+}
+
+Film ViewRenderer::draw(const Camera& camera, ImageSize size, const std::vector<Aov>& aovs) {
+  const RenderOptions options{.threads = threads(),
+                              .integrator = integrator_.get(),
+                              .samples = arguments_.sampling.samples,
+                              .filter = arguments_.sampling.filter,
+                              .seed = arguments_.sampling.seed,
+                              .memory = &memory_,
+                              .aovs = aovs,
+                              .sampled_aovs = arguments_.aovs.sampled,
+                              .transparent = arguments_.environment.is_transparent()};
+  Film film = denoiser_ ? denoiser_->render(*prepared_, camera, size, options)
+                        : microtrace::render(*prepared_, camera, size, options);
+  apply_display(film, arguments_.display);
+  return film;
+}
+
+std::vector<Aov> ViewRenderer::annotation_channels() const {
+  const bool is_bop = writes(arguments_, DatasetFormat::bop);
+  std::vector<Aov> aovs;
+  if (is_bop || writes(arguments_, DatasetFormat::coco)) aovs.push_back(Aov::id);
+  if (is_bop) aovs.push_back(Aov::depth);
+  return aovs;
 }
 
 std::vector<std::string> ViewRenderer::render(const DatasetView& view, std::uint32_t index,
                                               const fs::path& folder) {
-  load(view);
-  const unsigned threads = arguments_.threads != 0 ? arguments_.threads : default_threads();
-  if (!prepared_) {
-    prepared_.emplace(scene_, PrepareOptions{.threads = threads,
-                                             .memory = &memory_,
-                                             .tables = std::exchange(tables_, nullptr)});
-    tables_ = prepared_->tables();
-  }
+  prepare(view);
   const ImageSize size = view.size.value_or(arguments_.size.value_or(scene_->size));
-  RenderOptions options{.threads = threads,
-                        .integrator = integrator_.get(),
-                        .samples = arguments_.sampling.samples,
-                        .filter = arguments_.sampling.filter,
-                        .seed = arguments_.sampling.seed,
-                        .memory = &memory_,
-                        .aovs = arguments_.aovs.exact,
-                        .sampled_aovs = arguments_.aovs.sampled,
-                        .transparent = arguments_.environment.is_transparent()};
-  // Channels for annotations that the pictures don't need.
-  std::vector<Aov> hidden;
-  const auto need = [&](Aov aov) {
-    if (std::ranges::find(options.aovs, aov) != options.aovs.end()) return;
-    options.aovs.push_back(aov);
-    hidden.push_back(aov);
-  };
-  const bool is_bop = writes(arguments_, DatasetFormat::bop),
-             is_annotated = is_bop || writes(arguments_, DatasetFormat::coco);
-  if (is_annotated) need(Aov::id);
-  if (is_bop) need(Aov::depth);
   const Camera camera = camera_of(view, index, size);
-  Film film = denoiser_ ? denoiser_->render(*prepared_, camera, size, options)
-                        : microtrace::render(*prepared_, camera, size, options);
-  apply_display(film, arguments_.display);
+  const std::vector<Aov>& shown = arguments_.aovs.exact;
+  std::vector<Aov> hidden = annotation_channels();
+  const bool is_annotated = !hidden.empty();
+  std::erase_if(hidden, [&](Aov aov) { return std::ranges::find(shown, aov) != shown.end(); });
+  std::vector<Aov> all = shown;
+  all.insert(all.end(), hidden.begin(), hidden.end());
+  Film film = draw(camera, size, all);
   std::vector<std::string> names;
-  const bool is_exr =
-      writes(arguments_, DatasetFormat::exr) && !writes(arguments_, DatasetFormat::png);
-  const std::string stem = stem_of(arguments_, view, index);
-  AnnotatedPicture picture{
-      .index = index, .file = stem + (is_exr ? ".exr" : ".png"), .camera = camera, .size = size};
-  for (const Channel& channel : film.channels) {
-    if (channel.name == "id.instance")
-      picture.ids = std::get<std::vector<std::uint32_t>>(channel.values);
-    if (channel.name == "depth.Z") picture.depth = std::get<std::vector<float>>(channel.values);
+  if (is_annotated) {
+    const AnnotatedPicture picture{.index = index,
+                                   .file = picture_name(arguments_, view, index),
+                                   .camera = camera,
+                                   .size = size,
+                                   .ids = values_of<std::uint32_t>(film, "id.instance"),
+                                   .depth = values_of<float>(film, "depth.Z")};
+    save_annotations(view, picture, film, folder, names);
   }
-  if (is_annotated) save_annotations(view, picture, film, folder, names);
   for (const Aov aov : hidden) {
     std::erase_if(film.channels, [&](const Channel& c) {
       return c.name.starts_with(std::string(name_of(aov)) + ".");
     });
   }
+  save_pictures(stem_of(arguments_, view, index), film, folder, names);
+  return names;
+}
+
+void ViewRenderer::save_pictures(const std::string& stem, Film& film, const fs::path& folder,
+                                 std::vector<std::string>& names) const {
   if (writes(arguments_, DatasetFormat::png))
     names.push_back(save_picture(film, stem + ".png", folder));
   if (writes(arguments_, DatasetFormat::exr))
@@ -243,7 +282,6 @@ std::vector<std::string> ViewRenderer::render(const DatasetView& view, std::uint
     names.push_back(stem + ".npz");
     write_dataset_file(folder / names.back(), npz_of(film));
   }
-  return names;
 }
 
 }  // namespace microtrace::cli

@@ -39,7 +39,8 @@ class ViewRenderer {
   /// The loaded scene.
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 
-  /// Throws Error (usage) if the loaded scene lacks the camera that view number `index` names.
+  /// Throws Error (usage) if the loaded scene lacks the camera that view number `index` names, or
+  /// if a requested format can't describe the camera.
   void check_camera(const DatasetView& view, std::uint32_t index) const;
   /// Throws Error if the scene lacks the variant, or the file of the environment can't be opened.
   void check_look(const DatasetView& view, std::uint32_t index) const;
@@ -50,8 +51,16 @@ class ViewRenderer {
                                   const std::filesystem::path& folder);
 
  private:
+  /// Returns the options that select the camera of a view that has no camera of its own.
+  [[nodiscard]] CameraOptions camera_options(const DatasetView& view, std::uint32_t index) const;
   [[nodiscard]] Camera camera_of(const DatasetView& view, std::uint32_t index,
                                  ImageSize size) const;
+  [[nodiscard]] unsigned threads() const;
+  /// Returns the channels from which the annotations are made.
+  [[nodiscard]] std::vector<Aov> annotation_channels() const;
+  void prepare(const DatasetView& view);
+  /// Renders the prepared scene.
+  [[nodiscard]] Film draw(const Camera& camera, ImageSize size, const std::vector<Aov>& aovs);
   void load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings);
   /// Throws Error (usage) if BOP is written and the loaded scene has other objects than the first.
   void check_objects();
@@ -61,6 +70,9 @@ class ViewRenderer {
   /// of the files to `names`.
   void save_annotations(const DatasetView& view, const AnnotatedPicture& picture, Film& film,
                         const std::filesystem::path& folder, std::vector<std::string>& names);
+
+  void save_pictures(const std::string& stem, Film& film, const std::filesystem::path& folder,
+                     std::vector<std::string>& names) const;
 
   Arguments& arguments_;
   Warnings& warnings_;

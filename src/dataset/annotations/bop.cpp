@@ -6,31 +6,16 @@
 #include "io/image/encode/png.hpp"
 #include "scene/support.hpp"
 
+#include <microtrace/annotations.hpp>
 #include <microtrace/camera.hpp>
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <variant>
 
 namespace microtrace::dataset {
 namespace {
-
-bool is_distorted(const CalibratedCamera& camera) {
-  return camera.distortion != Distortion(RationalDistortion{});
-}
-
-void require_pinhole(const Camera& camera, const std::string& view) {
-  const auto* calibrated = std::get_if<CalibratedCamera>(&camera);
-  if (std::holds_alternative<PerspectiveCamera>(camera) ||
-      (calibrated != nullptr && !is_distorted(*calibrated)))
-    return;
-  throw Error(
-      ErrorKind::usage, view,
-      "BOP describes cameras by a matrix K; use a perspective camera or a calibrated camera "
-      "without distortion");
-}
 
 /// The transform from scene coordinates to camera space with x right, y down and z forward.
 struct CameraFrame {
@@ -115,7 +100,7 @@ bool is_scale(double x) {
 }
 
 void check(const DrawnView& view, const BopOptions& options) {
-  require_pinhole(*view.camera, view.name);
+  require_bop_camera(*view.camera, view.name);
   if (!is_scale(options.millimeters_per_unit) || !is_scale(options.depth_scale))
     throw Error(ErrorKind::usage, view.name, "scales must be positive, finite numbers");
   if (view.depth.size() != std::size_t{view.size.width} * view.size.height)

@@ -90,13 +90,12 @@ void Categories::add(const Scene& scene) {
 
 std::string coco_part(const DrawnView& view, CategoryBy by, const Masks& visible,
                       const Masks* amodal) {
-  std::string text = JsonText('{')
-                         .member("id", view.index)
-                         .member("width", view.size.width)
-                         .member("height", view.size.height)
-                         .member("file_name", view.color_file)
-                         .text() +
-                     '\n';
+  JsonText image('{');
+  image.member("id", view.index)
+      .member("width", view.size.width)
+      .member("height", view.size.height);
+  if (!view.color_file.empty()) image.member("file_name", view.color_file);
+  std::string text = image.text() + '\n';
   const Scene& scene = view.scene->scene();
   for (const auto& [index, mask] : visible) {
     const Object& object = scene.objects.at(index);
