@@ -22,6 +22,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,6 +107,48 @@ void check(const RenderOptions& options) {
   }
 }
 
+/// The channels of exact quantities, which refer to the untranslated scene.
+class ExactChannels {
+ public:
+  /// Adds the channels to the film. The window must outlive this object.
+  ExactChannels(const SceneView& scene, const Camera& camera, std::span<const Aov> aovs,
+                const PixelRect& window, Film& film)
+      : buffers_(add_channels(aovs, film)) {
+    if (buffers_.empty()) return;
+    world_.emplace(scene.world(1));
+    painter_.emplace(*world_, camera, buffers_, window);
+  }
+  ExactChannels(const ExactChannels&) = delete;
+  ExactChannels& operator=(const ExactChannels&) = delete;
+
+  void paint(const PixelRect& tile) const {
+    if (painter_) painter_->paint(tile);
+  }
+
+ private:
+  std::vector<AovBuffer> buffers_;
+  std::optional<World> world_;
+  std::optional<AovPainter> painter_;
+};
+
+/// Renders the film, which has the pixels of the window, by an integrator that is not random.
+void draw_tiles(const SceneView& view, const Integrator& integrator, const RenderOptions& options,
+                const PixelRect& window, Threads& threads, Film& film,
+                const ExactChannels& channels) {
+  World world = view.world(options.samples);
+  world.seed = options.seed;
+  const TilePainter colors(world, integrator, options, window, film);
+  const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {
+    colors.paint(tile);
+    channels.paint(tile);
+  };
+  for_each_tile(window, threads, draw, options.progress);
+  if (options.counts == nullptr) return;
+  const ImageSize part = window.size();
+  *options.counts = {.samples = std::uint64_t{part.width} * part.height * options.samples,
+                     .samples_per_pixel = options.samples};
+}
+
 Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Camera& camera,
           ImageSize size, const RenderOptions& options) {
   check(options);
@@ -117,7 +160,6 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
 
   const auto shown = content_for(content, camera, size);
-  // Exact quantities refer to the untranslated scene.
   const SceneView exact(shown, camera, size);
   const SceneView view = integrator.is_random() ? near_origin(shown, camera, size) : exact;
   (void)view.content->bvh();
@@ -129,16 +171,7 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
   Film film =
       make_film(size, window, options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none,
                 numbers_of_pixel(options));
-  std::optional<World> exact_world;
-  std::optional<AovPainter> channels;
-  const std::vector<AovBuffer> buffers = add_channels(options.aovs, film);
-  if (!buffers.empty()) {
-    exact_world.emplace(exact.world(1));
-    channels.emplace(*exact_world, camera, buffers, window);
-  }
-  const auto paint_channels = [&](const PixelRect& tile) {
-    if (channels) channels->paint(tile);
-  };
+  const ExactChannels channels(exact, camera, options.aovs, window, film);
   if (lit) {
     lit->train(options, size, threads);
     draw_at_random({.world = lit->world(),
@@ -147,21 +180,9 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
                     .window = window,
                     .threads = threads,
                     .start = start},
-                   film, paint_channels);
+                   film, [&](const PixelRect& tile) { channels.paint(tile); });
   } else {
-    World world = view.world(options.samples);
-    world.seed = options.seed;
-    const TilePainter colors(world, integrator, options, window, film);
-    const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {
-      colors.paint(tile);
-      paint_channels(tile);
-    };
-    for_each_tile(window, threads, draw, options.progress);
-    if (options.counts != nullptr) {
-      const ImageSize part = window.size();
-      *options.counts = {.samples = std::uint64_t{part.width} * part.height * options.samples,
-                         .samples_per_pixel = options.samples};
-    }
+    draw_tiles(view, integrator, options, window, threads, film, channels);
   }
   if (options.counts != nullptr) {
     options.counts->rays = integrator.ray_counts();
