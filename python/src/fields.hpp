@@ -4,9 +4,24 @@
 
 #include <microtrace/microtrace.hpp>
 
+#include <array>
+#include <cstddef>
 #include <tuple>
 
 namespace microtrace::python {
+
+/// Python's names for the values of an enumeration, in the order of the values. Specialized for
+/// each enumeration.
+template <class Enum>
+inline constexpr std::array<const char*, 0> kNames{};
+template <>
+inline constexpr auto kNames<AlphaMode> = std::array{"opaque", "mask", "blend"};
+template <>
+inline constexpr auto kNames<Wrap> = std::array{"repeat", "mirrored_repeat", "clamp_to_edge"};
+template <>
+inline constexpr auto kNames<Filter> = std::array{"nearest", "linear"};
+template <>
+inline constexpr auto kNames<MipFilter> = std::array{"none", "nearest", "linear"};
 
 /// An attribute of a Python object and the member of T that holds its value.
 template <class T, class Member>

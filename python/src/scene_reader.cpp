@@ -19,12 +19,12 @@
 namespace microtrace::python {
 namespace {
 
-template <class Enum, std::size_t n>
-Enum named(const std::string& name, const std::array<const char*, n>& names, const char* what) {
+template <class Enum>
+Enum named(const std::string& name, const char* what) {
   std::string all;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (name == names[i]) return static_cast<Enum>(i);
-    all += (i > 0 ? ", " : "") + std::string(names[i]);
+  for (std::size_t i = 0; i < kNames<Enum>.size(); ++i) {
+    if (name == kNames<Enum>[i]) return static_cast<Enum>(i);
+    all.append(i > 0 ? ", " : "").append(kNames<Enum>[i]);
   }
   throw nb::value_error((std::string(what) + " must be one of " + all + ", not " + name).c_str());
 }
@@ -117,8 +117,7 @@ class Reader {
                                 .c_str());
   }
   void read(const nb::handle& value, AlphaMode& to) {
-    to = named<AlphaMode>(cast<std::string>(value, field_), std::array{"opaque", "mask", "blend"},
-                          field_);
+    to = named<AlphaMode>(cast<std::string>(value, field_), field_);
   }
   void read(const nb::handle& value, ImageSize& to) {
     const auto [width, height] = cast<std::array<std::uint32_t, 2>>(value, field_);
@@ -201,16 +200,13 @@ class Reader {
     return textures_.of(value, [&] {
       Texture texture;
       if (is(value, "materials", "Texture")) {
-        static constexpr std::array kWraps{"repeat", "mirrored_repeat", "clamp_to_edge"};
-        static constexpr std::array kFilters{"nearest", "linear"};
-        static constexpr std::array kMips{"none", "nearest", "linear"};
         texture.name = text(value, "name");
         texture.sampler = {
-            .wrap_s = named<Wrap>(text(value, "wrap_s"), kWraps, "wrap_s"),
-            .wrap_t = named<Wrap>(text(value, "wrap_t"), kWraps, "wrap_t"),
-            .magnification = named<Filter>(text(value, "magnification"), kFilters, "magnification"),
-            .minification = named<Filter>(text(value, "minification"), kFilters, "minification"),
-            .mip = named<MipFilter>(text(value, "mip"), kMips, "mip")};
+            .wrap_s = named<Wrap>(text(value, "wrap_s"), "wrap_s"),
+            .wrap_t = named<Wrap>(text(value, "wrap_t"), "wrap_t"),
+            .magnification = named<Filter>(text(value, "magnification"), "magnification"),
+            .minification = named<Filter>(text(value, "minification"), "minification"),
+            .mip = named<MipFilter>(text(value, "mip"), "mip")};
         if (const nb::object image = value.attr("image"); !image.is_none())
           texture.image = place_of_image(image);
       } else {

@@ -10,6 +10,7 @@
 #include <array>
 #include <nanobind/stl/array.h>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
@@ -61,9 +62,9 @@ class Writer {
     for (glm::length_t i = 0; i < n; ++i) numbers.append(static_cast<double>(v[i]));
     return nb::tuple(numbers);
   }
-  nb::object value(AlphaMode v) {
-    static constexpr std::array kNames{"opaque", "mask", "blend"};
-    return nb::cast(kNames[static_cast<std::size_t>(v)]);
+  template <class Enum>
+  requires std::is_enum_v<Enum> nb::object value(Enum v) {
+    return nb::cast(kNames<Enum>[static_cast<std::size_t>(v)]);
   }
   nb::object value(const ImageSize& v) { return nb::make_tuple(v.width, v.height); }
   nb::object value(const Distortion& v) {
@@ -102,18 +103,14 @@ class Writer {
   }
 
   nb::object texture_of(const Texture& texture) {
-    static constexpr std::array kWraps{"repeat", "mirrored_repeat", "clamp_to_edge"};
-    static constexpr std::array kFilters{"nearest", "linear"};
-    static constexpr std::array kMips{"none", "nearest", "linear"};
-    const auto name = [](const auto& names, auto v) { return names[static_cast<std::size_t>(v)]; };
     nb::dict arguments;
     arguments["image"] = texture.image ? images_[*texture.image] : nb::none();
     arguments["name"] = texture.name;
-    arguments["wrap_s"] = name(kWraps, texture.sampler.wrap_s);
-    arguments["wrap_t"] = name(kWraps, texture.sampler.wrap_t);
-    arguments["magnification"] = name(kFilters, texture.sampler.magnification);
-    arguments["minification"] = name(kFilters, texture.sampler.minification);
-    arguments["mip"] = name(kMips, texture.sampler.mip);
+    arguments["wrap_s"] = value(texture.sampler.wrap_s);
+    arguments["wrap_t"] = value(texture.sampler.wrap_t);
+    arguments["magnification"] = value(texture.sampler.magnification);
+    arguments["minification"] = value(texture.sampler.minification);
+    arguments["mip"] = value(texture.sampler.mip);
     return make("materials", "Texture", arguments);
   }
 
