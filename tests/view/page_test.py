@@ -40,11 +40,34 @@ PIXELS = """canvas => {
 
 def write_two_animations(source, path):
     """Writes the asset with another animation, "Second", which has only one channel of the first one."""
+    def add(asset):
+        first = asset["animations"][0]
+        asset["animations"].append({**first, "name": "Second", "channels": first["channels"][:1]})
+
+    write_changed(source, path, add)
+
+
+def write_variants(source, path):
+    """Writes the asset with the variants "Red" and "Green", which change the color of its meshes."""
+    def add(asset):
+        extension = "KHR_materials_variants"
+        asset["extensionsUsed"] = [*asset.get("extensionsUsed", []), extension]
+        asset.setdefault("extensions", {})[extension] = {"variants": [{"name": "Red"}, {"name": "Green"}]}
+        first = len(asset.setdefault("materials", []))
+        asset["materials"] += [{"pbrMetallicRoughness": {"baseColorFactor": [*color, 1]}} for color in ((1, 0, 0), (0, 1, 0))]
+        for mesh in asset["meshes"]:
+            for primitive in mesh["primitives"]:
+                primitive.setdefault("extensions", {})[extension] = {"mappings": [{"material": first + i, "variants": [i]} for i in (0, 1)]}
+
+    write_changed(source, path, add)
+
+
+def write_changed(source, path, change):
+    """Writes a copy of a .glb file after change(asset) has changed its JSON."""
     data = source.read_bytes()
     length = struct.unpack_from("<I", data, 12)[0]
     asset = json.loads(data[20:20 + length])
-    first = asset["animations"][0]
-    asset["animations"].append({**first, "name": "Second", "channels": first["channels"][:1]})
+    change(asset)
     text = json.dumps(asset).encode()
     text += b" " * (-len(text) % 4)
     rest = data[20 + length:]
@@ -241,6 +264,19 @@ class PageTest(unittest.TestCase):
         page = self.open(self.viewer(SCENES / "perspective1.json", "--size", "60x40", "--camera", "camera1"))
         self.assertEqual(page.input_value("#camera"), "--camera 0")
         self.assertEqual(self.words(page), ["--size", "60x40", "--camera", "camera1"])
+
+    def test_variants_are_selected_by_name_and_index(self):
+        scene = self.folder / "variants.glb"
+        write_variants(SCENES / "gltf/cube.glb", scene)
+        for given, shown in (("Green", "Green"), ("0", "Red"), (None, "as in the file")):
+            with self.subTest(given=given):
+                words = ["--size", "60x40", "--spp", "1", *(["--variant", given] if given else [])]
+                page = self.open(self.viewer(scene, *words))
+                self.assertEqual(page.eval_on_selector("#variant", "e => e.selectedOptions[0].text"), shown)
+                self.assert_shows(page, scene)
+                self.change(page, lambda page=page: page.select_option("#variant", label="Green" if shown == "Red" else "Red"))
+                self.assertIn("--variant 1" if shown == "Red" else "--variant 0", " ".join(self.words(page)))
+                self.assert_shows(page, scene)
 
     def test_animations_are_selected_by_name(self):
         scene = self.folder / "two.glb"

@@ -18,7 +18,7 @@ function showScene(scene) {
   byId("name").title = `${scene.objects} objects, ${scene.primitives} primitives, ${scene.lights} lights`;
   fill(byId("integrator"), [...scene.integrators, "variance"].map((name) => [name]));
   fill(byId("tonemap"), scene.tonemaps.map((name) => [name]));
-  fill(byId("variant"), scene.variants.map((name, i) => [name || String(i)]), "as in the file");
+  fill(byId("variant"), scene.variants.map((name, i) => [String(i), name || String(i)]), "as in the file");
   const cameras = scene.cameras.map((name, i) => [`--camera ${i}`, `camera ${name || i}`]);
   const views = scene.views.map((name) => [`--view ${name}`, name]);
   fill(byId("camera"), [...cameras, ...views, ["free", "free"]]);
@@ -60,6 +60,10 @@ function showTime({ animations }, options) {
   byId("time-text").textContent = `${Number(byId("time").value).toFixed(2)} s`;
 }
 
+function showVariant({ variants }, options) {
+  byId("variant").value = numberOf(variants, options.get("--variant") ?? "");
+}
+
 export function showCommand({ scene, options }) {
   byId("command").textContent = commandLine(scene.name, options);
 }
@@ -75,6 +79,7 @@ export function showControls(side, index, isOther) {
   [byId("width").value, byId("height").value] = size;
   showCamera(scene, options);
   showTime(scene, options);
+  showVariant(scene, options);
   showCommand(side);
   byId("side").value = String(index);
 }
