@@ -83,6 +83,18 @@ def write_textured_grid(path, n):
         "buffers": [{"uri": path.with_suffix(".bin").name, "byteLength": sum(map(len, parts))}]}))
 
 
+def write_copies(path, count):
+    """Writes a glTF asset that contains a mesh of 200 triangles several times."""
+    points = array.array("f", (x for i in range(600) for x in (i % 7, i % 11, i % 13)))
+    path.with_suffix(".bin").write_bytes(points.tobytes())
+    path.write_text(json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(count))}],
+        "nodes": [{"mesh": 0, "translation": [20 * (i % 200), 20 * (i // 200), 0]} for i in range(count)],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 600, "min": [0, 0, 0], "max": [6, 10, 12]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 7200}], "buffers": [{"uri": path.with_suffix(".bin").name, "byteLength": 7200}]}))
+
+
 class Access(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -214,6 +226,24 @@ class Access(unittest.TestCase):
         for connection in waiting:
             connection.close()
         wait_until(lambda: self.viewer.request("GET", "").status == 200)
+
+    def test_idle_connections_do_not_lock_others_out(self):
+        path = self.viewer.open()
+        with ThreadPoolExecutor(1) as pool:
+            poll = pool.submit(self.viewer.request, "GET", f"{path}?after=0")  # waits for a picture
+            wait_until(lambda: poll.running())
+            idle = []
+            for start in (b"", b"GET / HT"):
+                for _ in range(100):
+                    connection = socket.create_connection(("127.0.0.1", self.viewer.port), timeout=10)
+                    connection.sendall(start)
+                    idle.append(connection)
+                self.assertEqual(self.viewer.request("GET", "", timeout=10).status, 200)
+            self.viewer.request("PUT", path, "--size\n8x6")
+            self.assertEqual(poll.result(timeout=30).status, 200)
+            for connection in idle:
+                connection.close()
+        self.viewer.request("DELETE", path)
 
     def test_fuzz(self):
         choices = random.Random(2026)
@@ -544,6 +574,26 @@ class Ends(unittest.TestCase):
                 viewer.request("PUT", path, "--integrator\npath\n--spp\n65536")
                 viewer.process.send_signal(signal)
                 self.assertEqual(viewer.process.wait(timeout=10), 0)
+
+    def test_loading_delays_neither_requests_nor_the_end(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = Path(folder) / "many.gltf"
+            write_copies(scene, 12000)
+            start = time.monotonic()
+            with Viewer(PROGRAM, scene, "--instances", "copy", "--size", "8x6", "--spp", "1") as viewer:
+                loading = time.monotonic() - start
+                paths = [viewer.open() for _ in range(8)]
+                for i, path in enumerate(paths):  # each loads the scene again, one after another
+                    self.assertEqual(viewer.request("PUT", path, f"--instances\ncopy\n--time\n{i}").status, 200)
+                time.sleep(loading / 4)
+                start = time.monotonic()
+                for path in paths:
+                    self.assertEqual(viewer.request("DELETE", path).status, 204)
+                self.assertLess(time.monotonic() - start, loading / 4)
+                self.assertEqual(viewer.request("POST", "pictures").status, 503)  # as many are still being stopped
+                viewer.process.send_signal(15)
+                self.assertEqual(viewer.process.wait(timeout=60), 0)
+                self.assertLess(time.monotonic() - start, loading + 1)
 
     def test_usage(self):
         with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:

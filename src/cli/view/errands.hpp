@@ -16,6 +16,9 @@ class Errands {
   /// are running or the system refuses to start a thread. All calls must come from one thread.
   [[nodiscard]] bool run(std::function<void()> work);
 
+  /// Returns true if no errand is running.
+  [[nodiscard]] bool are_done();
+
  private:
   static constexpr std::size_t kMost = 4;
 
@@ -23,6 +26,8 @@ class Errands {
     std::shared_ptr<std::atomic<bool>> is_done;
     std::vector<std::jthread> thread;
   };
+  void forget_done();
+
   std::list<Errand> errands_;
 };
 

@@ -33,18 +33,25 @@ std::string png_of(const Film& film) {
 }  // namespace
 
 LivePicture::LivePicture(SceneSource& source) : source_(source) {
-  thread_ = start_threads(1, [this] { work(); });
+  thread_ = start_threads(1, [this] {
+    work();
+    has_stopped_ = true;
+  });
   if (thread_.empty())
     throw Error(ErrorKind::limit, "", "the system refuses to start a thread for another picture");
 }
 
 LivePicture::~LivePicture() {
-  {
-    const std::scoped_lock lock(mutex_);
-    is_stopping_ = true;
-    changed_.notify_all();
-  }
+  stop();
   thread_.clear();
+}
+
+void LivePicture::stop() {
+  std::optional<Waiting> waiting;
+  const std::scoped_lock lock(mutex_);
+  is_stopping_ = true;
+  waiting = std::exchange(waiting_, std::nullopt);
+  changed_.notify_all();
 }
 
 std::uint64_t LivePicture::request(Arguments arguments, bool is_moving) {

@@ -6,6 +6,7 @@
 #include "cli/view/scene_source.hpp"
 #include "io/http/http_server.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -25,6 +26,11 @@ class LivePicture {
   ~LivePicture();
   LivePicture(const LivePicture&) = delete;
   LivePicture& operator=(const LivePicture&) = delete;
+
+  /// Ends the drawing soon, without waiting: a scene that is being loaded is loaded completely.
+  void stop();
+  /// Returns true after stop() if the destructor doesn't wait.
+  [[nodiscard]] bool has_stopped() const { return has_stopped_; }
 
   /// Draws another picture. While the camera is moving, one sample per pixel is drawn, at a lower
   /// resolution if this would take too long. Returns the number of the request.
@@ -88,6 +94,7 @@ class LivePicture {
   std::optional<Waiting> waiting_;
   Clock::time_point last_poll_ = Clock::now();
 
+  std::atomic<bool> has_stopped_ = false;
   std::vector<std::jthread> thread_;
 };
 

@@ -6,8 +6,12 @@
 #include "cli/view/browser.hpp"
 #include "cli/view/view_server.hpp"
 
+#include <microtrace/io.hpp>
+
+#include <chrono>
 #include <cstdio>
 #include <string>
+#include <unistd.h>
 
 namespace microtrace::cli {
 
@@ -24,6 +28,11 @@ void view_scene(const Arguments& arguments) {
   }
   if (arguments.view.opens_browser) open_browser(server.address());
   server.run([] { return DelayedSignals::received() == 0; });
+  constexpr std::chrono::milliseconds kTimeToStop{500};
+  if (server.stop(kTimeToStop)) return;
+  // Loading a scene can't be canceled, so the process ends without waiting for its threads.
+  remove_unfinished_files();
+  _exit(0);
 }
 
 }  // namespace microtrace::cli

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <new>
 #include <sys/random.h>
+#include <thread>
 #include <utility>
 
 namespace microtrace::cli {
@@ -34,6 +35,10 @@ std::string random_token() {
 
 io::HttpResponse json_response(std::string body, unsigned status = 200) {
   return {.status = status, .type = "application/json", .body = std::move(body)};
+}
+
+io::HttpResponse busy() {
+  return json_response(error_json("the server is busy; try again when it has answered"), 503);
 }
 
 unsigned status_of(ErrorKind kind) {
@@ -105,6 +110,7 @@ void ViewServer::run(const std::function<bool()>& goes_on) {
 
 void ViewServer::tick() {
   for (const auto& [id, picture] : pictures_) picture->tick();
+  forget_stopped();
   constexpr unsigned kWatchEvery = 2;
   if (++ticks_ % kWatchEvery != 0) return;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -169,7 +175,7 @@ void ViewServer::answer_picture(const io::HttpRequest& request, const std::strin
     return reply(json_response("{\"request\":" + std::to_string(number) + "}"));
   }
   if (request.method == "DELETE") {
-    pictures_.erase(found);
+    close_picture(found);
     return reply({.status = 204});
   }
   reply(json_response(error_json("use GET, PUT or DELETE"), 405));
@@ -177,13 +183,38 @@ void ViewServer::answer_picture(const io::HttpRequest& request, const std::strin
 
 void ViewServer::open_picture(const io::HttpRequest& request, const io::HttpReply& reply) {
   SceneSource& source = source_of(Query(request.query));
+  forget_stopped();
+  if (stopping_.size() >= kMostPictures) return reply(busy());
   if (pictures_.size() >= kMostPictures) {
-    pictures_.erase(std::ranges::max_element(
+    close_picture(std::ranges::max_element(
         pictures_, {}, [](const auto& entry) { return entry.second->idle_time().count(); }));
   }
   const std::string id = std::to_string(++opened_pictures_);
   pictures_.emplace(id, std::make_unique<LivePicture>(source));
   reply(json_response("{\"id\":\"" + id + "\"}"));
+}
+
+void ViewServer::close_picture(
+    std::map<std::string, std::unique_ptr<LivePicture>>::iterator picture) {
+  picture->second->stop();
+  stopping_.push_back(std::move(picture->second));
+  pictures_.erase(picture);
+}
+
+void ViewServer::forget_stopped() {
+  stopping_.remove_if([](const auto& picture) { return picture->has_stopped(); });
+}
+
+bool ViewServer::stop(std::chrono::milliseconds time) {
+  is_ending_ = true;
+  while (!pictures_.empty()) close_picture(pictures_.begin());
+  const auto end = std::chrono::steady_clock::now() + time;
+  for (;;) {
+    forget_stopped();
+    if (stopping_.empty() && errands_.are_done()) return true;
+    if (std::chrono::steady_clock::now() >= end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 std::vector<std::string> ViewServer::first_words(SceneSource& source) const {
@@ -240,8 +271,7 @@ SceneSource& ViewServer::source_of(const Query& query) {
 void ViewServer::run_errand(const io::HttpReply& reply, std::function<io::HttpResponse()> work) {
   const bool is_running =
       errands_.run([reply, work = std::move(work)] { reply(response_of(work)); });
-  if (!is_running)
-    reply(json_response(error_json("the server is busy; try again when it has answered"), 503));
+  if (!is_running) reply(busy());
 }
 
 }  // namespace microtrace::cli

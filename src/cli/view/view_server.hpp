@@ -10,8 +10,10 @@
 #include "io/http/http_server.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -44,9 +46,13 @@ class ViewServer {
   /// the page requests the end. Throws Error.
   void run(const std::function<bool()>& goes_on);
 
+  /// Ends all drawing and all other work, and waits for it for this time. Returns true if it has
+  /// ended, so that the destructor doesn't wait.
+  [[nodiscard]] bool stop(std::chrono::milliseconds time);
+
  private:
   /// The number of pictures that are drawn for open pages. The one that was not asked for the
-  /// longest time makes room for another one.
+  /// longest time makes room for another one. As many may still be stopping.
   static constexpr std::size_t kMostPictures = 8;
 
   void handle(const io::HttpRequest& request, const io::HttpReply& reply);
@@ -54,6 +60,9 @@ class ViewServer {
   void answer_picture(const io::HttpRequest& request, const std::string& id,
                       const io::HttpReply& reply);
   void open_picture(const io::HttpRequest& request, const io::HttpReply& reply);
+  /// Closes a picture without waiting for its thread.
+  void close_picture(std::map<std::string, std::unique_ptr<LivePicture>>::iterator picture);
+  void forget_stopped();
   /// Returns the scene that the parameter `scene` selects. Throws Error (usage).
   [[nodiscard]] SceneSource& source_of(const Query& query);
   /// Returns the words of the program's command line. A number replaces an automatic exposure, so
@@ -74,6 +83,7 @@ class ViewServer {
   // Errands and pictures keep replies, which refer to the server.
   io::HttpServer http_;
   std::map<std::string, std::unique_ptr<LivePicture>> pictures_;
+  std::list<std::unique_ptr<LivePicture>> stopping_;
   std::uint64_t opened_pictures_ = 0;
   Errands errands_;
 };

@@ -55,10 +55,28 @@ Connection::Connection(Server& server, boost::asio::ip::tcp::socket socket)
 }
 
 Connection::~Connection() {
+  end_quiet();
   server_.count_connections(-1);
 }
 
+void Connection::begin_quiet() {
+  Server::Quiet& all = server_.quiet();
+  if (!quiet_) quiet_ = all.insert(all.end(), this);
+}
+
+void Connection::end_quiet() {
+  if (quiet_) server_.quiet().erase(*quiet_);
+  quiet_.reset();
+}
+
+void Connection::close() {
+  end_quiet();
+  boost::system::error_code ignored;
+  stream_.socket().close(ignored);
+}
+
 void Connection::read() {
+  begin_quiet();
   if (buffer_.size() > 0) return receive();  // a request that follows the previous one at once
   stream_.expires_after(kTimeToWait);
   // Waits for the first byte. receive() limits the time for the rest.
@@ -93,6 +111,7 @@ void Connection::receive() {
 }
 
 void Connection::answer() {
+  end_quiet();
   const auto& request = parser_->get();
   const std::string_view host = view_of(request[field::host]);
   const std::string_view origin = view_of(request[field::origin]);
@@ -147,6 +166,7 @@ void Connection::refuse(status code, const std::string& text) {
 }
 
 void Connection::write(Response response) {
+  end_quiet();
   response_ = std::move(response);
   const bool is_read = parser_->is_done();
   response_.version(11);

@@ -25,6 +25,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Reads and answers the next request.
   void read();
 
+  /// Ends a connection that is one of Server::quiet().
+  void close();
+
   using Response = boost::beast::http::response<boost::beast::http::string_body>;
   /// Sends the response to the current request. Must be called on the thread of Server::run().
   void write(Response response);
@@ -37,6 +40,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   static constexpr std::uint64_t kMostBody = 64 << 10;
 
   void receive();
+  void begin_quiet();
+  void end_quiet();
   void answer();
   void refuse(boost::beast::http::status status, const std::string& text);
 
@@ -45,6 +50,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::beast::flat_buffer buffer_{kMostHeader + kMostBody};
   std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
   Response response_;
+  std::optional<Server::Quiet::iterator> quiet_;
 };
 
 /// Makes a response with the header fields that all responses have.

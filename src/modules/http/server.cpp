@@ -29,11 +29,17 @@ void Server::run() {
 void Server::accept() {
   acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    // Connections beyond the limit are closed at once. Errors, such as too many open files, pass.
-    if (!error && connections_ < kMostConnections)
-      std::make_shared<Connection>(*this, std::move(socket))->read();
+    // Errors, such as too many open files, pass.
+    if (!error && make_room()) std::make_shared<Connection>(*this, std::move(socket))->read();
     accept();
   });
+}
+
+bool Server::make_room() {
+  if (connections_ < kMostConnections) return true;
+  if (quiet_.empty()) return false;  // all wait for responses
+  quiet_.front()->close();
+  return true;
 }
 
 void Server::tick() {

@@ -10,9 +10,12 @@
 #include <boost/asio/steady_timer.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <list>
 #include <string>
 
 namespace microtrace::http {
+
+class Connection;
 
 class Server {
  public:
@@ -29,17 +32,26 @@ class Server {
   [[nodiscard]] const std::string& allowed_host() const { return allowed_host_; }
   [[nodiscard]] boost::asio::io_context& context() { return context_; }
 
+  /// The connections that wait for a request or receive one, the one that began first in front.
+  using Quiet = std::list<Connection*>;
+  [[nodiscard]] Quiet& quiet() { return quiet_; }
+
   void count_connections(int change) { connections_ += change; }
 
  private:
   static constexpr int kMostConnections = 64;
 
   void accept();
+  /// Returns true if another connection is allowed. At the limit, closes the one that has been
+  /// quiet for the longest time.
+  [[nodiscard]] bool make_room();
   void tick();
 
   MicrotraceHttpHost host_;
   std::string token_, allowed_host_;
-  int connections_ = 0;  // used by the thread of run() only
+  // Used by the thread of run() only, also by connections that end with the context.
+  int connections_ = 0;
+  Quiet quiet_;
   boost::asio::io_context context_{1};
   boost::asio::ip::tcp::acceptor acceptor_;
   boost::asio::steady_timer timer_;
