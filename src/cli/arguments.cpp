@@ -1,5 +1,7 @@
 #include "cli/arguments.hpp"
 
+#include "cli/report/counted.hpp"
+
 #include <microtrace/aov.hpp>
 #include <microtrace/defaults.hpp>
 #include <microtrace/denoise.hpp>
@@ -26,8 +28,8 @@ void check_sampling(const SamplingOptions& sampling, bool is_path) {
         "--integrator path");
   }
   if (sampling.shard && sampling.shard->count > sampling.samples) {
-    refuse_usage("--shard: " + std::to_string(sampling.samples) +
-                 " samples (--spp) can't be divided into " + std::to_string(sampling.shard->count) +
+    refuse_usage("--shard: " + counted(sampling.samples, "sample") +
+                 " (--spp) can't be divided into " + std::to_string(sampling.shard->count) +
                  " shards");
   }
 }

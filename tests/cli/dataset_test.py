@@ -297,6 +297,12 @@ class Dataset(ProgramTest):
             self.assertEqual((image["id"], image.get("file_name")), (1, name))
             self.assertTrue(name is None or (self.folder / output / name).exists())
 
+    def test_one_view_is_counted_in_the_singular(self):
+        self.assertIn("out: rendered 1 view in ", text := self.dataset("--views", "orbit:2", *SMALL, "--shard", "2/2"))
+        self.assertIn("; 1 view of other shards is not rendered yet\n", text)
+        self.dataset(*SMALL, output="out1")
+        self.assertTrue(self.run_program("verify", "out1", "--redraw", "0").stderr.startswith(b"out1: 1 view, 2 files, all whole; 0 views rendered"))
+
     def test_damaged_and_missing_lists(self):
         options = ["--views", "orbit:2", *SMALL]
         self.dataset(*options)
@@ -354,6 +360,8 @@ class Dataset(ProgramTest):
             self.assertIn("--views: view 0: BOP describes", self.dataset(*options, "--formats", "bop", scene=scene, code=2, output="new"))
         self.assertIn("--camera: there is no camera", self.dataset("--camera", "nobody", code=2, output="new"))
         self.assertFalse((self.folder / "new").exists())
+        for option, format in ((["--amodal"], "coco"), (["--categories", "materials"], "coco"), (["--depth-scale", "1"], "bop")):
+            self.assertIn(f"{option[0]} is for the format {format}", self.dataset(*option, "--formats", "png,npz", code=2, output="new"))
         for generator in ("orbit:0", "orbit:3,91", "hemisphere:2.5", "random:3,4", "orbit:"):
             self.assertIn("--views: expects", self.dataset("--views", generator, code=2))
         for pattern in ("fixed", "{x}", "../{view}", "/{view}", "{view"):

@@ -602,7 +602,7 @@ class Ends(unittest.TestCase):
             self.assertIn(f"port {viewer.port} of 127.0.0.1 can't be used: Address already in use; choose another one", busy.stderr.decode())
         for arguments, code in ((["missing.json"], 5), (["-"], 2), ([SCENES / "sphere.json", "--port", "0"], 2), ([], 2),
                                 ([SCENES / "sphere.json", "--camera", "nobody"], 2), ([SCENES / "sphere.json", "-o", "x.png"], 2),
-                                ([SCENES / "sphere.json", "--compare", "missing.json"], 5)):
+                                ([SCENES / "sphere.json", "--compare", "-"], 2), ([SCENES / "sphere.json", "--compare", "missing.json"], 5)):
             result = run("view", *arguments, "--no-browser", timeout=30)
             self.assertEqual(result.returncode, code, (arguments, result.stderr))
 

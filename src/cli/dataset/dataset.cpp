@@ -75,7 +75,10 @@ void report(const Arguments& arguments, std::size_t rendered, std::size_t kept,
   std::fprintf(stderr, "%s: rendered %s in %.1f s", printable(arguments.output.string()).c_str(),
                counted(rendered, "view").c_str(), seconds);
   if (kept > 0) std::fprintf(stderr, ", kept %zu", kept);
-  if (missing > 0) std::fprintf(stderr, "; %u views of other shards are not rendered yet", missing);
+  if (missing > 0) {
+    std::fprintf(stderr, "; %s of other shards %s not rendered yet",
+                 counted(missing, "view").c_str(), missing == 1 ? "is" : "are");
+  }
   std::fprintf(stderr, "\n");
 }
 

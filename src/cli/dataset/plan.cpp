@@ -89,6 +89,18 @@ void check_use(const Arguments& arguments, const std::vector<DatasetView>& views
     refuse_usage("--animation requires --time, --frames or views with times");
 }
 
+/// Refuses options of formats that are not written.
+void check_formats(const Arguments& arguments) {
+  const DatasetOptions& dataset = arguments.dataset;
+  if (!writes(arguments, DatasetFormat::coco)) {
+    if (dataset.coco.amodal) refuse_usage("--amodal is for the format coco; add it to --formats");
+    if (dataset.coco.categories != DatasetOptions{}.coco.categories)
+      refuse_usage("--categories is for the format coco; add it to --formats");
+  }
+  if (dataset.depth_scale != DatasetOptions{}.depth_scale && !writes(arguments, DatasetFormat::bop))
+    refuse_usage("--depth-scale is for the format bop; add it to --formats");
+}
+
 std::vector<DatasetView> views_of_frames(const Arguments& arguments,
                                          const std::vector<DatasetView>& listed) {
   if (std::uint64_t{listed.size()} * arguments.frames->count() > kMaxViews)
@@ -111,6 +123,7 @@ std::vector<DatasetView> views_of(const Arguments& arguments) {
   std::vector<DatasetView> views = listed_views(arguments);
   if (arguments.frames) views = views_of_frames(arguments, views);
   check_use(arguments, views);
+  check_formats(arguments);
   return views;
 }
 

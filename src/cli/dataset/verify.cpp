@@ -99,13 +99,13 @@ void verify_dataset(const Arguments& arguments) {
   if (finished.size() < count) {
     throw Error(ErrorKind::io, arguments.output.string(),
                 "lacks " + std::to_string(count - finished.size()) + " of " +
-                    std::to_string(count) + " views; continue with microtrace dataset");
+                    counted(count, "view") + "; continue with microtrace dataset");
   }
   const std::size_t files = recorded.size() + check_manifest(folder, recorded);
   if (arguments.quiet) return;
-  std::fprintf(stderr, "%s: %u views, %zu files, all whole; %s rendered again: the same\n",
-               printable(arguments.output.string()).c_str(), count, files,
-               counted(sample.size(), "view").c_str());
+  std::fprintf(stderr, "%s: %s, %s, all whole; %s rendered again: the same\n",
+               printable(arguments.output.string()).c_str(), counted(count, "view").c_str(),
+               counted(files, "file").c_str(), counted(sample.size(), "view").c_str());
 }
 
 }  // namespace microtrace::cli

@@ -18,6 +18,8 @@ namespace microtrace::cli {
 void view_scene(const Arguments& arguments) {
   if (arguments.scene == "-")
     refuse_usage("SCENE: standard input can't be read again; name a file");
+  if (arguments.view.other_scene == "-")
+    refuse_usage("--compare: standard input can't be read again; name a file");
   ViewServer server(arguments);
   server.load();
   const DelayedSignals delay;  // from the moment at which the address is known
