@@ -413,7 +413,13 @@ class CommandLine(ProgramTest):
         # Tests the message without SCENE too, because CLI11 would report the missing SCENE first.
         self.assertIn(b"did you mean --samples?", self.run_program("--smaples=4").stderr)
         for arguments, message in ((["--nothing-like-it"], "error: unknown option --nothing-like-it\n"),
+                                   (["-size", "8x6"], "error: unknown option -size; did you mean --size?\n"),
+                                   (["-y"], "error: unknown option -y\n"),
                                    (["b.json"], 'error: unexpected argument "b.json"\n'),
+                                   (["b.json", "--stats=json"], 'error: unexpected argument "b.json"\n'),
+                                   (["--stats", "json"], 'error: unexpected argument "json"; the value of --stats follows =, as in --stats=KIND\n'),
+                                   (["--ground", "-1"], 'error: unexpected argument "-1"; the value of --ground follows =, as in --ground=Y\n'),
+                                   (["--ground", "1"], 'error: unexpected argument "1"; the value of --ground follows =, as in --ground=Y\n'),
                                    (["--spp"], "error: --spp expects a value\n"),
                                    (["-o", ""], "error: --output: expects a value, is empty\n"),
                                    (["--camera="], "error: --camera expects a value\n"),

@@ -33,10 +33,28 @@ std::vector<std::string_view> long_names(Command command) {
 std::string unknown_option(Command command, std::string_view argument) {
   const std::string name(argument.substr(0, argument.find('=')));
   std::string message = "unknown option " + printable(name);
-  if (!name.starts_with("--")) return message;
   const std::vector<std::string_view> known = long_names(command);
-  const std::string_view nearest = nearest_name(name, known);
+  const std::string spelled = name.starts_with("--") ? name : "-" + name;
+  // A letter after one dash is similar to many names.
+  const std::string_view nearest = spelled.size() > 3 ? nearest_name(spelled, known) : "";
   if (!nearest.empty()) message.append("; did you mean ").append(nearest).append("?");
+  return message;
+}
+
+/// Returns the message for a word that is neither an option nor its value. It may be meant as the
+/// value of an option whose value may be omitted.
+std::string unexpected_argument(Command command, const CLI::App& app, const std::string& word) {
+  std::string message = "unexpected argument " + in_quotes(word);
+  for (const OptionGroup& group : option_groups(command)) {
+    for (const Option& option : group.options) {
+      if (option.implied_value.empty()) continue;
+      const std::string name(option.name());
+      const std::vector<std::string>& given = app.get_option(name)->results();
+      if (given.empty() || given.back() != option.implied_value) continue;
+      message.append("; the value of ").append(name).append(" follows =, as in ").append(name);
+      return message.append("=").append(option.metavar);
+    }
+  }
   return message;
 }
 
@@ -46,10 +64,12 @@ std::string message_of(Command command, const CLI::App& app, const CLI::ParseErr
   // CLI11 reports missing arguments before unknown ones, but a mistyped option is often the reason
   // why an argument is missing.
   const std::vector<std::string> left = app.remaining();
-  const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };
+  const auto is_option = [](const std::string& text) {
+    return text.size() > 1 && text[0] == '-' && numbers_of(text).empty();
+  };
   const auto option = std::ranges::find_if(left, is_option);
   if (option != left.end()) return unknown_option(command, *option);
-  if (!left.empty()) return "unexpected argument " + in_quotes(left.front());
+  if (!left.empty()) return unexpected_argument(command, app, left.front());
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     const std::string text = error.what();
     const std::string name = text.substr(0, text.find(':'));
