@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
+#include <link.h>
 #include <system_error>
 #include <utility>
 
@@ -65,11 +66,17 @@ void* load_denoiser() {
                    "the dynamic linker's folders");
 }
 
+std::string path_of(void* library) {
+  const link_map* map = nullptr;
+  return ::dlinfo(library, RTLD_DI_LINKMAP, static_cast<void*>(&map)) == 0 ? map->l_name
+                                                                           : "the library";
+}
+
 template <class Function>
 void find_denoiser_function(void* library, const char* name, Function*& function) {
   function = reinterpret_cast<Function*>(::dlsym(library, name));
   if (function == nullptr)
-    refuse_denoising("the library lacks " + std::string(name) + ", so it has another version");
+    refuse_denoising(path_of(library) + " lacks " + name + ", so it is another library or version");
 }
 
 OidnFunctions functions_of(void* library) {
