@@ -18,9 +18,10 @@ struct Checkpoint {
   /// Lists everything that the samples depend on, in lines of a name, a tab and a value. Only
   /// checkpoints with equal identities may be merged.
   std::string identity;
-  bool has_alpha = false;     ///< true if the picture has alpha
-  std::uint32_t samples = 1;  ///< requested samples per pixel
-  Display display{};          ///< how 8-bit formats show the picture
+  bool has_alpha = false;                     ///< true if the picture has alpha
+  bool has_lens = false, has_ground = false;  ///< those of the film
+  std::uint32_t samples = 1;                  ///< requested samples per pixel
+  Display display{};                          ///< how 8-bit formats show the picture
   SampleSums sums{};
   /// Other channels of the picture. compute_channels() computes some of them from the sums, so
   /// their values are not saved.

@@ -18,7 +18,8 @@ namespace microtrace {
 
 /// The channels that Denoiser::denoise() needs.
 inline constexpr std::array kDenoiseFeatures = {SampledAov::denoise_albedo,
-                                                SampledAov::denoise_normal, SampledAov::emission};
+                                                SampledAov::denoise_normal, SampledAov::emission,
+                                                SampledAov::denoise_emission};
 
 /// The library for denoising. May be used by any number of threads.
 class MICROTRACE_EXPORT Denoiser {
@@ -38,7 +39,9 @@ class MICROTRACE_EXPORT Denoiser {
   /// Replaces the film's colors by denoised ones. The film must be a picture of PathIntegrator with
   /// the channels of kDenoiseFeatures. Alpha and channels remain unchanged, and so do colors where
   /// no surface is visible. Light that reaches the camera without being scattered (the channel
-  /// emission) has no noise; only the rest of each color is filtered. Sets Film::denoiser.
+  /// emission) has no noise; only the rest of each color is filtered. If Film::has_lens or
+  /// Film::has_ground is true, channels contain noise: they are filtered first, and the background
+  /// and emission are filtered, too. Sets Film::denoiser.
   ///
   /// Only the options threads, progress and memory have an effect. The library starts its own
   /// threads. Throws Error: usage if a channel

@@ -60,7 +60,9 @@ class Film {
   ImageSize whole;               ///< size of the whole picture, of which this film may be a part
   std::uint32_t x0 = 0, y0 = 0;  ///< position of this film's upper left pixel in the whole picture
   Display display{};
-  std::string denoiser{};           ///< name and version of the denoiser of the colors; empty: none
+  std::string denoiser{};   ///< name and version of the denoiser of the colors; empty: none
+  bool has_lens = false;    ///< the lens of the camera makes all channels for denoising noisy
+  bool has_ground = false;  ///< shadows on a ground make emission noisy
   std::vector<Channel> channels{};  ///< each has one number for every pixel of this film
 
  private:

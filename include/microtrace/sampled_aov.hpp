@@ -15,21 +15,23 @@ namespace microtrace {
 /// src/render/aovs/sampled_aov_painter.cpp, its help text in src/cli/options/picture_options.cpp, a
 /// line in docs/outputs.md, and a test in tests/unit/render/sampled_aov_test.cpp.
 enum class SampledAov {
-  variance,        ///< Y: estimated variance of the mean luminance (PixelSum::variance)
-  samples,         ///< N: number of samples of the pixel
-  denoise_albedo,  ///< R, G, B: mean color of the surfaces that are seen directly, in mirrors and
-                   ///< through smooth glass, without lighting, in [0, 1]
-  denoise_normal,  ///< X, Y, Z: mean shading normal of these surfaces, world space, facing the
-                   ///< viewer; shorter than 1 where normals differ between samples; 0 where the
-                   ///< background is seen
-  emission,        ///< R, G, B: mean light that arrives without being scattered: from emissive
-                   ///< surfaces, the environment and the background, composited like the colors
-  noisy,           ///< R, G, B: the colors before denoising
+  variance,          ///< Y: estimated variance of the mean luminance (PixelSum::variance)
+  samples,           ///< N: number of samples of the pixel
+  denoise_albedo,    ///< R, G, B: mean color of the surfaces that are seen directly, in mirrors and
+                     ///< through smooth glass, without lighting, in [0, 1]
+  denoise_normal,    ///< X, Y, Z: mean shading normal of these surfaces, world space, facing the
+                     ///< viewer; shorter than 1 where normals differ between samples; 0 where the
+                     ///< background is seen
+  emission,          ///< R, G, B: mean light that arrives without being scattered: from emissive
+                     ///< surfaces, the environment and the background, composited like the colors
+  noisy,             ///< R, G, B: the colors before denoising
+  denoise_emission,  ///< R, G, B: emission with at least 256 samples, so that its edges are smooth
 };
 
-inline constexpr std::array kSampledAovs = {SampledAov::variance,       SampledAov::samples,
-                                            SampledAov::denoise_albedo, SampledAov::denoise_normal,
-                                            SampledAov::emission,       SampledAov::noisy};
+inline constexpr std::array kSampledAovs = {SampledAov::variance,        SampledAov::samples,
+                                            SampledAov::denoise_albedo,  SampledAov::denoise_normal,
+                                            SampledAov::emission,        SampledAov::noisy,
+                                            SampledAov::denoise_emission};
 
 /// The AOV's name on the command line, which is also the part of channel names before the dot.
 [[nodiscard]] MICROTRACE_EXPORT std::string_view name_of(SampledAov aov);

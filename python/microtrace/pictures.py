@@ -40,6 +40,7 @@ Quantity = Literal[
     "denoise_normal",
     "emission",
     "noisy",
+    "denoise_emission",
 ]
 ToneMap = Literal["none", "khronos-pbr-neutral", "aces", "agx"]
 
@@ -68,6 +69,7 @@ class Picture(Mapping[str, Array]):
     - denoise_albedo, denoise_normal: float32, 3 channels; means over the samples.
     - emission, noisy: float32, 3 channels; light that arrives without being scattered, and the
       colors before denoising.
+    - denoise_emission: float32, 3 channels; emission with at least 256 samples.
     """
 
     def __init__(
@@ -345,7 +347,7 @@ def render(
             share = None if show is None else (lambda x, k=k: show((k + x) / len(cameras)))
             tone_map = _core.render(prepared._core, each, outputs, {**arguments, "progress": share})
     if denoise:
-        _denoise(arrays, wanted, as_threads(threads))
+        _denoise(arrays, wanted, cameras, arguments["ground"] is not None, as_threads(threads))
     for name, array in arrays.items():
         if array.shape[-1] == 1:
             array = array[..., 0]
@@ -382,7 +384,7 @@ def _exposure(
 
 
 #: The arrays that denoising needs.
-_FEATURES = ("denoise_albedo", "denoise_normal", "emission")
+_FEATURES = ("denoise_albedo", "denoise_normal", "emission", "denoise_emission")
 
 
 def _denoiser(names: list[str], integrator: str) -> str:
@@ -399,11 +401,18 @@ def _with_features(names: list[str]) -> list[str]:
     return names + [name for name in _FEATURES if name not in names]
 
 
-def _denoise(arrays: dict[str, Array], wanted: list[str], threads: int) -> None:
+def _denoise(
+    arrays: dict[str, Array],
+    wanted: list[str],
+    cameras: Sequence[Camera | None],
+    has_ground: bool,
+    threads: int,
+) -> None:
     """Denoises the colors of a stack of pictures in place. Removes arrays that are not wanted."""
-    features = {name: arrays[name] for name in _FEATURES}
-    for k, color in enumerate(arrays["color"]):
-        _core.denoise(color, {name: array[k] for name, array in features.items()}, threads)
+    for k, (color, camera) in enumerate(zip(arrays["color"], cameras)):
+        has_lens = isinstance(camera, PerspectiveCamera) and camera.lens_radius > 0
+        features = {name: arrays[name][k] for name in _FEATURES}
+        _core.denoise(color, features, has_lens, has_ground, threads)
     for name in _FEATURES:
         if name not in wanted:
             del arrays[name]

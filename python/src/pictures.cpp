@@ -63,6 +63,7 @@ constexpr std::array kQuantities = {
     Quantity{"denoise_normal", "denoise_normal", "XYZ"},
     Quantity{"emission", "emission", "RGB"},
     Quantity{"noisy", "noisy", "RGB"},
+    Quantity{"denoise_emission", "denoise_emission", "RGB"},
 };
 
 /// A channel of the film, and the destination of its values.
@@ -382,8 +383,11 @@ std::string denoiser_name() {
 }
 
 /// Replaces the colors by denoised ones. `features` are the arrays of kDenoiseFeatures.
-void denoise(const Pixels<float>& color, const nb::dict& features, unsigned threads) {
+void denoise(const Pixels<float>& color, const nb::dict& features, bool has_lens, bool has_ground,
+             unsigned threads) {
   Film film = film_of(Pixels<const float>(color), 0, "none", features);
+  film.has_lens = has_lens;
+  film.has_ground = has_ground;
   run_interruptible([&](const std::function<bool()>& cancel) {
     Denoiser().denoise(film, {.threads = threads, .progress = [&](double) { return !cancel(); }});
   });

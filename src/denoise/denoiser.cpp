@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstdint>
 #include <exception>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <variant>
@@ -76,64 +77,149 @@ struct ProgressMonitor {
   }
 };
 
-/// The images of a filter, in rows of the film's width.
-struct FilterImages {
+/// The images of a picture, in rows of its width.
+struct Images {
   std::vector<Vec3> color, albedo, normal;
 };
 
-/// Replaces the colors by denoised ones.
-void run_filter(const OidnFunctions& f, ImageSize size, FilterImages& images,
-                const RenderOptions& options) {
-  // The library ends the process if the system refuses a thread.
-  const unsigned wanted = options.threads != 0 ? options.threads : default_threads();
-  const oidn::Device device = oidn::open_device(f, can_start_threads(wanted) ? wanted : 1);
-  const oidn::Filter filter(f.new_filter(device.get(), "RT"), {&f});
-  const auto set = [&](const char* name, std::vector<Vec3>& pixels) {
-    f.set_shared_filter_image(filter.get(), name, pixels.data(), oidn::kFloat3, size.width,
-                              size.height, 0, 0, 0);
-  };
-  set("color", images.color);
-  set("albedo", images.albedo);
-  set("normal", images.normal);
-  set("output", images.color);
-  f.set_filter_bool(filter.get(), "hdr", true);
-  f.set_filter_bool(filter.get(), "cleanAux", true);
-  f.set_filter_int(filter.get(), "maxMemoryMB", static_cast<int>(kMostMegabytes));
-  ProgressMonitor monitor{.progress = options.progress};
-  if (options.progress) {
-    f.set_filter_progress_monitor_function(filter.get(), ProgressMonitor::goes_on, &monitor);
+struct NamedImage {
+  const char* name;
+  std::vector<Vec3>& pixels;
+};
+
+/// Runs the library's filters on images of one size.
+class Filters {
+ public:
+  /// The arguments must outlive this object.
+  Filters(const OidnFunctions& functions, ImageSize size, const RenderOptions& options)
+      : f_(functions), size_(size), monitor_{.progress = options.progress} {
+    // The library ends the process if the system refuses a thread.
+    const unsigned wanted = options.threads != 0 ? options.threads : default_threads();
+    device_ = oidn::open_device(f_, can_start_threads(wanted) ? wanted : 1);
   }
-  f.commit_filter(filter.get());
-  f.execute_filter(filter.get());
-  if (monitor.thrown) std::rethrow_exception(monitor.thrown);
-  const char* message = nullptr;
-  const int error = f.get_device_error(device.get(), &message);
-  if (error == 0) return;
-  const ErrorKind kind = error == oidn::kCanceled      ? ErrorKind::canceled
-                         : error == oidn::kOutOfMemory ? ErrorKind::limit
-                                                       : ErrorKind::internal;
-  throw Error(kind, "", std::string("denoising failed: ") + message);
+
+  /// Replaces the colors by denoised ones. The features must be free of noise.
+  void filter_colors(Images& images) {
+    run({{"color", images.color}, {"albedo", images.albedo}, {"normal", images.normal}});
+  }
+
+  /// Replaces a feature, the library's "albedo" or "normal", by a denoised one.
+  void filter_feature(const char* name, std::vector<Vec3>& pixels) { run({{name, pixels}}); }
+
+ private:
+  /// Replaces the first image. The others are its guides.
+  void run(std::initializer_list<NamedImage> images) {
+    const oidn::Filter filter(f_.new_filter(device_.get(), "RT"), {&f_});
+    const auto set = [&](const char* name, std::vector<Vec3>& pixels) {
+      f_.set_shared_filter_image(filter.get(), name, pixels.data(), oidn::kFloat3, size_.width,
+                                 size_.height, 0, 0, 0);
+    };
+    for (const auto& [name, pixels] : images) set(name, pixels);
+    set("output", images.begin()->pixels);
+    if (images.size() > 1) {
+      f_.set_filter_bool(filter.get(), "hdr", true);
+      f_.set_filter_bool(filter.get(), "cleanAux", true);
+    }
+    f_.set_filter_int(filter.get(), "maxMemoryMB", static_cast<int>(kMostMegabytes));
+    if (monitor_.progress) {
+      f_.set_filter_progress_monitor_function(filter.get(), ProgressMonitor::goes_on, &monitor_);
+    }
+    f_.commit_filter(filter.get());
+    f_.execute_filter(filter.get());
+    check();
+  }
+
+  /// Throws the error of the last filter, if it failed.
+  void check() {
+    if (monitor_.thrown) std::rethrow_exception(monitor_.thrown);
+    const char* message = nullptr;
+    const int error = f_.get_device_error(device_.get(), &message);
+    if (error == 0) return;
+    const ErrorKind kind = error == oidn::kCanceled      ? ErrorKind::canceled
+                           : error == oidn::kOutOfMemory ? ErrorKind::limit
+                                                         : ErrorKind::internal;
+    throw Error(kind, "", std::string("denoising failed: ") + message);
+  }
+
+  const OidnFunctions& f_;
+  ImageSize size_;
+  ProgressMonitor monitor_;
+  oidn::Device device_;
+};
+
+/// Returns true if the color equals all colors at most this many pixels away, which noise would
+/// change.
+bool is_uniform(const Film& film, std::uint32_t x, std::uint32_t y) {
+  constexpr std::uint32_t kReach = 2;
+  const auto [width, height] = film.size();
+  const std::uint32_t x0 = std::max(x, kReach) - kReach, x1 = std::min(x + kReach + 1, width);
+  for (std::uint32_t v = std::max(y, kReach) - kReach; v < std::min(y + kReach + 1, height); ++v) {
+    const std::span<const Vec3> row = film.row(v).subspan(x0, x1 - x0);
+    if (std::ranges::any_of(row, [&](const Vec3& c) { return c != film.row(y)[x]; })) return false;
+  }
+  return true;
+}
+
+bool has_noisy_features(const Film& film) {
+  return film.has_lens || film.has_ground;
+}
+
+/// Returns the light that is not filtered, from either channel of emission. Emission has no noise,
+/// except with a lens and in shadows on a ground. These are darker than white; brighter light, such
+/// as that of small lamps, would be blurred.
+std::vector<Vec3> exact_light(const Film& film, SampledAov emission) {
+  std::vector<Vec3> light = vectors_of(film, emission);
+  if (film.has_lens) {
+    std::ranges::fill(light, Vec3(0));
+  } else if (film.has_ground) {
+    for (Vec3& color : light) color = glm::max(color - Vec3(1), Vec3(0));
+  }
+  return light;
+}
+
+/// Removes the noise of features.
+void clean_features(const Film& film, Filters& filters, Images& images) {
+  // Emission is filtered with the rest of the light, so features need its edges.
+  const std::vector<Vec3> emission = vectors_of(film, SampledAov::denoise_emission);
+  for (std::size_t i = 0; i < emission.size(); ++i)
+    images.albedo[i] = glm::min(images.albedo[i] + emission[i], Vec3(1));
+  filters.filter_feature("albedo", images.albedo);
+  filters.filter_feature("normal", images.normal);
+}
+
+/// Returns the pixels whose colors remain as they are, given the normals.
+std::vector<bool> kept_pixels(Film& film, std::span<const Vec3> normals) {
+  std::vector<bool> is_kept(normals.size());
+  for (std::uint32_t y = 0, i = 0; y < film.size().height; ++y) {
+    for (std::uint32_t x = 0; x < film.size().width; ++x, ++i) {
+      // Features have more samples than some pictures, so they may see an edge where these see
+      // none.
+      const bool is_background =
+          normals[i] == Vec3(0) && (!has_noisy_features(film) || is_uniform(film, x, y));
+      is_kept[i] = is_background || (film.has_alpha() && film.alpha_at(x, y) == 0);
+    }
+  }
+  return is_kept;
 }
 
 /// Denoises a film, which has all features.
 void denoise_film(const OidnFunctions& functions, Film& film, const RenderOptions& options) {
-  const std::vector<Vec3> emission = vectors_of(film, SampledAov::emission);
-  FilterImages images{.color = emission,
-                      .albedo = vectors_of(film, SampledAov::denoise_albedo),
-                      .normal = vectors_of(film, SampledAov::denoise_normal)};
+  Images images{.color = exact_light(film, SampledAov::emission),
+                .albedo = vectors_of(film, SampledAov::denoise_albedo),
+                .normal = vectors_of(film, SampledAov::denoise_normal)};
+  const std::vector<bool> is_kept = kept_pixels(film, images.normal);
+  Filters filters(functions, film.size(), options);
+  if (has_noisy_features(film)) clean_features(film, filters, images);
   const std::uint32_t width = film.size().width, height = film.size().height;
   for (std::uint32_t y = 0, i = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x, ++i)
-      images.color[i] = glm::max(film.at(x, y) - emission[i], Vec3(0));
+      images.color[i] = glm::max(film.at(x, y) - images.color[i], Vec3(0));
   }
-  run_filter(functions, film.size(), images, options);
+  filters.filter_colors(images);
+  const std::vector<Vec3> exact = exact_light(film, SampledAov::denoise_emission);
   for (std::uint32_t y = 0, i = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x, ++i) {
-      // Features have more samples than some pictures, so they may see an edge where these see
-      // none.
-      const bool is_background =
-          images.normal[i] == Vec3(0) || (film.has_alpha() && film.alpha_at(x, y) == 0);
-      if (!is_background) film.at(x, y) = emission[i] + images.color[i];
+      if (!is_kept[i]) film.at(x, y) = exact[i] + images.color[i];
     }
   }
 }

@@ -23,8 +23,9 @@ NAME = b"Open Image Denoise 2.0.7"
 
 
 class Denoise(ProgramTest):
-    def draw(self, *arguments, code=0, scene=SCENE, library=LIBRARY):
-        result = self.run_program(*([scene] if scene else []), *arguments, env=environment(MICROTRACE_OIDN_PATH=library))
+    def draw(self, *arguments, code=0, scene=SCENE, library=LIBRARY, mode=""):
+        variables = environment(MICROTRACE_OIDN_PATH=library, FAKE_OIDN=mode)
+        result = self.run_program(*([scene] if scene else []), *arguments, env=variables)
         self.assertEqual(result.returncode, code, result.stderr)
         return result.stderr.decode()
 
@@ -67,6 +68,18 @@ class Denoise(ProgramTest):
         self.assertEqual(self.bytes_of("merged.png"), self.bytes_of("whole.png"))
         message = self.draw("merge", "c", "--denoise", "-o", "x.png", scene=None, code=2)
         self.assertIn("--shard", message)
+
+    def test_noisy_features(self):
+        # The library refuses features that were filtered for a picture whose features have no noise, and vice versa.
+        for option in (["--aperture", "0.1", "--focus", "3"], ["--ground"]):
+            self.draw(*LIGHT, *option, "--denoise", "-o", "whole.exr", "-q", mode="noisy")
+            for shard in "12":
+                self.draw(*LIGHT, *option, "--denoise", "--shard", f"{shard}/2", "--checkpoint", shard, library="/missing")
+            self.draw("merge", "2", "1", "--denoise", "-o", "merged.exr", "-q", scene=None, mode="noisy")
+            self.assertEqual(self.bytes_of("merged.exr"), self.bytes_of("whole.exr"))
+            self.draw("merge", "2", "1", "--denoise", "-o", "x.exr", "-q", scene=None, code=1)
+            for shard in "12":
+                (self.folder / shard).unlink()
 
     def test_target_error(self):
         # The tiles of the lit object take more samples than those of the background.

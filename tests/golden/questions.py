@@ -69,7 +69,7 @@ def samples_of(checkpoint):
     src/io/checkpoint/checkpoint.cpp."""
     at = len(b"microtrace samples\n") + 4
     (identity,) = struct.unpack_from("<I", checkpoint, at)
-    at += 4 + identity + 4 + 4 + 8 + 4 + 8
+    at += 4 + identity + 3 * 4 + 4 + 8 + 4 + 8
     x0, y0, x1, y1 = struct.unpack_from("<4I", checkpoint, at)
     at += 4 * 4 + 3 * 4
     (ranges,) = struct.unpack_from("<I", checkpoint, at)

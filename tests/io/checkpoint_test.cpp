@@ -21,7 +21,8 @@ namespace microtrace {
 namespace {
 
 Checkpoint example() {
-  Checkpoint checkpoint{.identity = "--seed\t1\nscene files\t7\n", .has_alpha = true, .samples = 9};
+  Checkpoint checkpoint{
+      .identity = "--seed\t1\nscene files\t7\n", .has_alpha = true, .has_lens = true, .samples = 9};
   checkpoint.sums = SampleSums({.width = 5, .height = 4}, {1, 1, 4, 3}, Vec3(0.25F, 0, 7));
   checkpoint.display = {.exposure = -1.5, .tone_map = ToneMap::agx};
   float x = -3;
@@ -55,6 +56,8 @@ TEST_F(CheckpointFile, StoresAllMembers) {
   const Checkpoint read = load_checkpoint(path_);
   EXPECT_EQ(read.identity, written.identity);
   EXPECT_TRUE(read.has_alpha);
+  EXPECT_TRUE(read.has_lens);
+  EXPECT_FALSE(read.has_ground);
   EXPECT_EQ(read.samples, 9U);
   EXPECT_EQ(read.display.exposure, -1.5);
   EXPECT_EQ(read.display.tone_map, ToneMap::agx);

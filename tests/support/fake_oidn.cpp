@@ -1,18 +1,22 @@
 /// Stands for Open Image Denoise in tests, which thus don't depend on its installation. The filter
-/// averages each pixel of the color with its right neighbor. The environment variable FAKE_OIDN
-/// names a failure: "memory", "broken" or "processor"; "same" makes the filter copy the colors.
+/// averages each pixel of an image with its right neighbor. The environment variable FAKE_OIDN
+/// names a failure: "memory", "broken" or "processor"; "same" makes the filter copy the image.
+/// If it is "noisy", features must be filtered before the colors, and the filter adds 1/64 to the
+/// colors; otherwise, features must not be filtered.
 
 #include "denoise/oidn_abi.hpp"
 
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 struct OidnDevice {
   int error = 0;
   std::string message{};
+  std::set<const float*> filtered{};  ///< features
 };
 
 struct OidnFilter {
@@ -95,17 +99,29 @@ FAKE void oidnExecuteFilter(OidnFilter* filter) {
   auto& images = filter->images;
   if (has_mode("memory")) return fail(device, 4, "out of memory");
   if (has_mode("broken")) return fail(device, 1, "made up for a test");
-  if (!filter->switches["hdr"] || !filter->switches["cleanAux"])
-    return fail(device, 2, "a switch is missing");
-  if (!images["color"] || !images["albedo"] || !images["normal"] || !images["output"])
+  float* const color = images["color"];
+  float* const feature = images["albedo"] != nullptr ? images["albedo"] : images["normal"];
+  if (feature == nullptr || images["output"] == nullptr)
     return fail(device, 2, "an image is missing");
+  if (color == nullptr) {
+    device->filtered.insert(images["output"]);
+  } else {
+    if (!filter->switches["hdr"] || !filter->switches["cleanAux"])
+      return fail(device, 2, "a switch is missing");
+    for (const char* name : {"albedo", "normal"}) {
+      if (device->filtered.contains(images[name]) != has_mode("noisy"))
+        return fail(device, 2, "a feature is noisy, or was filtered without need");
+    }
+  }
   if (filter->progress != nullptr && !filter->progress(filter->context, 0.5))
     return fail(device, 6, "canceled");
+  const float* const input = color != nullptr ? color : feature;
   const std::size_t row = 3 * filter->width;
-  const std::vector<float> from(images["color"], images["color"] + row * filter->height);
+  const std::vector<float> from(input, input + row * filter->height);
   for (std::size_t i = 0; i < from.size(); ++i) {
     const bool is_last = i % row + 3 >= row;
     images["output"][i] = is_last || has_mode("same") ? from[i] : (from[i] + from[i + 3]) / 2;
+    if (color != nullptr && has_mode("noisy")) images["output"][i] += 0x1p-6F;
   }
 }
 FAKE void oidnReleaseFilter(OidnFilter* filter) {

@@ -19,6 +19,7 @@ from ..pictures import (
     _checked,
     _denoise,
     _denoiser,
+    _ground_arguments,
     _shown,
     _with_features,
 )
@@ -224,7 +225,9 @@ def render(
                 client, "microtrace-render", render_tiles, job, count, receive, show, retries
             ).run()
     if denoise:
-        _denoise(arrays, wanted, 0)
+        first = scene.cameras[0] if scene.cameras else None
+        has_ground = _ground_arguments(ground, "path") is not None
+        _denoise(arrays, wanted, [each or first for each in cameras], has_ground, 0)
     if not is_stack:
         arrays = {name: array[0] for name, array in arrays.items()}
     part = (width, height, 0, 0)

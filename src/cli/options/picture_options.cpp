@@ -58,8 +58,8 @@ constexpr std::array kPictureOptions{
         .help =
             "additional channels of an .exr picture, comma-separated: depth, distance, "
             "position, normal, face_normal, uv, barycentric, albedo and id are exact values at "
-            "pixel centers; variance, samples, denoise_albedo, denoise_normal, emission and noisy "
-            "are computed from the samples and need --integrator path",
+            "pixel centers; variance, samples, denoise_albedo, denoise_normal, emission, noisy and "
+            "denoise_emission are computed from the samples and need --integrator path",
         .samples = Samples::keep,
         .words = aov_names,
         .set = [](Arguments& a, const OptionValue& value) { a.aovs = parse_aovs(value); }},

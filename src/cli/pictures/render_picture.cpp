@@ -116,7 +116,7 @@ SavedFilm render_and_save(const PreparedScene& scene, const Camera& camera, Imag
     const DelayedSignals delay;
     try {
       film = draw();
-      files.samples->keep(film->channels);
+      files.samples->keep(*film);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::canceled) {
         files.samples->save();

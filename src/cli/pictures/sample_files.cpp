@@ -83,11 +83,13 @@ Passes SampleFiles::passes(const Display& display) {
           .after_each = [this](const SampleSums&) { save_if_due(); }};
 }
 
-void SampleFiles::keep(const std::vector<Channel>& channels) {
+void SampleFiles::keep(const Film& film) {
   if (!arguments_.sampling.shard) return;
-  memory_.take(channels.size() * samples_.sums.pixels.size() * sizeof(float),
+  memory_.take(film.channels.size() * samples_.sums.pixels.size() * sizeof(float),
                "the channels of a checkpoint");
-  samples_.channels = channels;
+  samples_.channels = film.channels;
+  samples_.has_lens = film.has_lens;
+  samples_.has_ground = film.has_ground;
 }
 
 void SampleFiles::save() {

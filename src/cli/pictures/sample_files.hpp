@@ -38,9 +38,9 @@ class SampleFiles {
   /// --save-every seconds. Progressive pictures are encoded with `display`.
   [[nodiscard]] Passes passes(const Display& display);
 
-  /// Adds the complete picture's channels to the checkpoint of a shard, which is all that is left
-  /// of the picture.
-  void keep(const std::vector<Channel>& channels);
+  /// Adds the channels of the complete picture to the checkpoint of a shard, which is all that is
+  /// left of the picture.
+  void keep(const Film& film);
 
   /// False before the first pass.
   [[nodiscard]] bool has_samples() const { return !samples_.sums.pixels.empty(); }

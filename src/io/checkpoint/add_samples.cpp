@@ -108,6 +108,8 @@ void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem
   };
   if (other.identity != checkpoint.identity)
     refuse("holds samples of another picture: " + difference(other.identity, checkpoint.identity));
+  checkpoint.has_lens |= other.has_lens;
+  checkpoint.has_ground |= other.has_ground;
   if (checkpoint.sums.pixels.empty()) {
     checkpoint.samples = std::max(checkpoint.samples, other.samples);
     checkpoint.display = other.display;

@@ -27,7 +27,7 @@ namespace microtrace {
 namespace {
 
 constexpr std::string_view kMagic = "microtrace samples\n";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 36U;
 constexpr std::uint32_t kMostSamples = 65536;  // per pixel; sample ranges end at or below it
 constexpr std::uint32_t kMaxIdentity = 1U << 20U, kMaxChannels = 256, kMaxChannelName = 256;
@@ -43,6 +43,8 @@ std::string encode_head(const Checkpoint& checkpoint) {
   append_little(bytes, static_cast<std::uint32_t>(checkpoint.identity.size()));
   bytes += checkpoint.identity;
   append_little(bytes, std::uint32_t{checkpoint.has_alpha});
+  append_little(bytes, std::uint32_t{checkpoint.has_lens});
+  append_little(bytes, std::uint32_t{checkpoint.has_ground});
   append_little(bytes, checkpoint.samples);
   append_little(bytes, std::bit_cast<std::uint64_t>(checkpoint.display.exposure));
   append_little(bytes, static_cast<std::uint32_t>(checkpoint.display.tone_map));
@@ -77,6 +79,8 @@ Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path
   if (!identity) fail_as_damaged(path);
   checkpoint.identity = *identity;
   checkpoint.has_alpha = word() != 0;
+  checkpoint.has_lens = word() != 0;
+  checkpoint.has_ground = word() != 0;
   checkpoint.samples = word();
   checkpoint.display.exposure = std::bit_cast<double>(reader.number<std::uint64_t>());
   const std::uint32_t tone_map = word();
@@ -251,6 +255,8 @@ Film picture_of(const Checkpoint& checkpoint) {
   Film film = develop(checkpoint.sums,
                       checkpoint.has_alpha ? Film::Alpha::premultiplied : Film::Alpha::none);
   film.display = checkpoint.display;
+  film.has_lens = checkpoint.has_lens;
+  film.has_ground = checkpoint.has_ground;
   film.channels = checkpoint.channels;
   compute_channels(checkpoint.sums, film.channels);
   return film;

@@ -21,6 +21,9 @@ namespace {
 /// samples. It suffices to antialias edges.
 constexpr std::uint32_t kFeatureSamples = 32;
 
+/// The least number of samples of SampledAov::denoise_emission.
+constexpr std::uint32_t kEmissionSamples = 256;
+
 struct Row {
   std::string_view name;
   std::string_view channels;  ///< one letter per channel
@@ -28,9 +31,10 @@ struct Row {
 
 const Row& row_of(SampledAov aov) {
   // Rows are in the order of SampledAov.
-  static constexpr std::array kRows = {Row{"variance", "Y"},         Row{"samples", "N"},
-                                       Row{"denoise_albedo", "RGB"}, Row{"denoise_normal", "XYZ"},
-                                       Row{"emission", "RGB"},       Row{"noisy", "RGB"}};
+  static constexpr std::array kRows = {Row{"variance", "Y"},          Row{"samples", "N"},
+                                       Row{"denoise_albedo", "RGB"},  Row{"denoise_normal", "XYZ"},
+                                       Row{"emission", "RGB"},        Row{"noisy", "RGB"},
+                                       Row{"denoise_emission", "RGB"}};
   static_assert(kRows.size() == kSampledAovs.size());
   return kRows[static_cast<std::size_t>(aov)];
 }
@@ -104,6 +108,8 @@ SampledAovPainter::SampledAovPainter(const World& world, const RenderOptions& op
       emission_(world, light_, options, background),
       window_(window),
       film_(film) {
+  film.has_lens = ray_.has_lens();
+  film.has_ground = light_.options().ground.has_value();
   first_.fill(kNone);
   const std::size_t pixels = std::size_t{film.size().width} * film.size().height;
   for (const SampledAov aov : options.sampled_aovs) {
@@ -137,7 +143,8 @@ std::size_t SampledAovPainter::index_of(const PixelRect& tile, std::size_t i) co
 void SampledAovPainter::paint(const PixelRect& tile, std::span<const SampleRange> samples,
                               std::uint32_t count) const {
   if (has(SampledAov::denoise_albedo) || has(SampledAov::denoise_normal)) paint_features(tile);
-  if (has(SampledAov::emission)) paint_emission(tile, samples, count);
+  if (has(SampledAov::emission) || has(SampledAov::denoise_emission))
+    paint_emission(tile, samples, count);
 }
 
 void SampledAovPainter::paint_features(const PixelRect& tile) const {
@@ -178,18 +185,31 @@ void SampledAovPainter::paint_features(const PixelRect& tile) const {
 
 void SampledAovPainter::paint_emission(const PixelRect& tile, std::span<const SampleRange> samples,
                                        std::uint32_t count) const {
-  std::array<PixelSum, kTilePixels> sums{};
+  std::array<PixelSum, kTilePixels> pixels{};
+  const ImageSize size = tile.size();
+  const std::span sums = std::span(pixels).first(std::size_t{size.width} * size.height);
+  std::uint32_t last = 0;
   for (SampleRange range : samples) {
     range.last = std::min(range.last, range.first + count);
     count -= range.size();
-    if (range.size() > 0) emission_.add(tile, range, sums);
+    if (range.size() > 0) emission_.add(tile, range, pixels);
+    last = std::max(last, range.last);
   }
-  const ImageSize size = tile.size();
-  for (std::size_t i = 0; i < std::size_t{size.width} * size.height; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      value(SampledAov::emission, c, index_of(tile, i)) =
-          value_of(SampledAov::noisy, c, sums[i], background_);
-    }
+  if (has(SampledAov::emission)) set_emission(SampledAov::emission, tile, sums);
+  if (!has(SampledAov::denoise_emission)) return;
+  // Light that is the same everywhere needs no more samples.
+  const bool is_uniform =
+      std::ranges::all_of(sums, [&](const PixelSum& sum) { return sum == sums.front(); });
+  if (!is_uniform && last < kEmissionSamples)
+    emission_.add(tile, {.first = last, .last = kEmissionSamples}, pixels);
+  set_emission(SampledAov::denoise_emission, tile, sums);
+}
+
+void SampledAovPainter::set_emission(SampledAov aov, const PixelRect& tile,
+                                     std::span<const PixelSum> sums) const {
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c)
+      value(aov, c, index_of(tile, i)) = value_of(SampledAov::noisy, c, sums[i], background_);
   }
 }
 

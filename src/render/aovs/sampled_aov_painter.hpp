@@ -41,6 +41,7 @@ class SampledAovPainter {
   void paint_features(const PixelRect& tile) const;
   void paint_emission(const PixelRect& tile, std::span<const SampleRange> samples,
                       std::uint32_t count) const;
+  void set_emission(SampledAov aov, const PixelRect& tile, std::span<const PixelSum> sums) const;
   /// The index in the film of pixel i of the tile.
   [[nodiscard]] std::size_t index_of(const PixelRect& tile, std::size_t i) const;
   /// A value of a channel of the film.

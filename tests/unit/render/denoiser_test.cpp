@@ -43,12 +43,13 @@ class DenoiserTest : public testing::Test {
     ::unsetenv("FAKE_OIDN");
   }
 
-  static Film drawn(RenderOptions options, bool denoises = true) {
+  static Film drawn(RenderOptions options, bool denoises = true, double lens_radius = 0) {
     const PreparedScene scene(lamp_and_floor());
     const PathIntegrator path;
     if (options.integrator == nullptr) options.integrator = &path;
     options.samples = 4;
-    const Camera camera = PerspectiveCamera{.pose = {.position = {0, 0, 4}}};
+    const Camera camera =
+        PerspectiveCamera{.pose = {.position = {0, 0, 4}}, .focus = 1, .lens_radius = lens_radius};
     return denoises ? Denoiser().render(scene, camera, kSmall, options)
                     : render(scene, camera, kSmall, options);
   }
@@ -80,7 +81,9 @@ Vec3 channel(const Film& film, std::size_t first, std::size_t pixel) {
 }
 
 TEST_F(DenoiserTest, FiltersOnlyScatteredLight) {
-  Film noisy = drawn({.sampled_aovs = {SampledAov::emission, SampledAov::denoise_normal}}, false);
+  Film noisy = drawn({.sampled_aovs = {SampledAov::emission, SampledAov::denoise_normal,
+                                       SampledAov::denoise_emission}},
+                     false);
   Film denoised = drawn({.sampled_aovs = {SampledAov::noisy}});
   EXPECT_EQ(denoised.denoiser, "Open Image Denoise 2.0.7");
   EXPECT_THAT(channel_names(denoised), ElementsAre("noisy.R", "noisy.G", "noisy.B"));
@@ -102,12 +105,58 @@ TEST_F(DenoiserTest, FiltersOnlyScatteredLight) {
       };
       const Vec3 filtered = x + 1 < kSmall.width ? 0.5F * (rest(x) + rest(x + 1)) : rest(x);
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(after[c], channel(noisy, 0, i)[c] + filtered[c], 1e-6);
+        EXPECT_NEAR(after[c], channel(noisy, 6, i)[c] + filtered[c], 1e-6);
       if (after != before) ++changed;
     }
   }
   EXPECT_GT(changed, 40U);
   EXPECT_GT(background, 40U);
+}
+
+/// Expects that all light up to `white` and all other scattered light were filtered, except far
+/// from where the background changes. `noisy` has the emission from few and from many samples.
+void expect_filtered(Film& noisy, Film& denoised, float white) {
+  const Vec3 background(0.25F), added(0x1p-6F);
+  std::size_t filtered = 0, kept = 0;
+  const auto beyond_white = [&](std::size_t first, std::uint32_t x, std::uint32_t y) {
+    const Vec3 emission = channel(noisy, first, std::size_t{y} * kSmall.width + x);
+    return glm::max(emission - Vec3(white), Vec3(0));
+  };
+  for (std::uint32_t y = 0; y < kSmall.height; ++y) {
+    for (std::uint32_t x = 2; x + 2 < kSmall.width; ++x) {
+      const Vec3 after = denoised.at(x, y);
+      if (after == background) {
+        for (std::uint32_t column = x - 2; column <= x + 2; ++column)
+          EXPECT_EQ(noisy.at(column, y), background);
+        ++kept;
+        continue;
+      }
+      const auto rest = [&](std::uint32_t column) {
+        return noisy.at(column, y) - beyond_white(0, column, y);
+      };
+      const Vec3 wanted = beyond_white(3, x, y) + 0.5F * (rest(x) + rest(x + 1)) + added;
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(after[c], wanted[c], 1e-6);
+      ++filtered;
+    }
+  }
+  EXPECT_GT(filtered, 60U);
+  EXPECT_GT(kept, 5U);
+}
+
+const std::vector<SampledAov> kEmissions = {SampledAov::emission, SampledAov::denoise_emission};
+
+TEST_F(DenoiserTest, FiltersFeaturesAndAllLightOfALens) {
+  ::setenv("FAKE_OIDN", "noisy", 1);
+  Film noisy = drawn({.sampled_aovs = kEmissions}, false, 0.2), denoised = drawn({}, true, 0.2);
+  expect_filtered(noisy, denoised, 1e9F);
+}
+
+TEST_F(DenoiserTest, FiltersShadowsOnAGround) {
+  ::setenv("FAKE_OIDN", "noisy", 1);
+  const PathIntegrator path({.ground = Ground{.height = -2}});
+  Film noisy = drawn({.integrator = &path, .sampled_aovs = kEmissions}, false);
+  Film denoised = drawn({.integrator = &path});
+  expect_filtered(noisy, denoised, 1);
 }
 
 TEST_F(DenoiserTest, KeepsAlpha) {
@@ -187,7 +236,8 @@ TEST_F(DenoiserTest, ErrorsNameTheRemedy) {
   EXPECT_THAT(complaint(text.string()), HasSubstr("not a shared library"));
   Dl_info other{};
   ASSERT_NE(::dladdr(reinterpret_cast<const void*>(&std::fopen), &other), 0);
-  EXPECT_THAT(complaint(other.dli_fname), HasSubstr("lacks oidnNewDevice"));
+  EXPECT_THAT(complaint(other.dli_fname),
+              HasSubstr(std::string(other.dli_fname) + " lacks oidnNewDevice"));
 }
 
 }  // namespace

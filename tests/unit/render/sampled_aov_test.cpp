@@ -92,6 +92,24 @@ TEST(SampledAov, NoisyIsTheColor) {
   }
 }
 
+TEST(SampledAov, DenoiseEmissionHasManySamples) {
+  // The background, which covers 0.7 of the pixels in column 13, is light that is not scattered.
+  const std::vector<SampledAov> wanted = {SampledAov::denoise_emission, SampledAov::emission};
+  for (const std::uint32_t samples : {1U, 7U}) {
+    const Film film = drawn_samples({.samples = samples, .sampled_aovs = wanted});
+    const Film by_passes =
+        drawn_samples({.samples = samples, .passes = Passes{}, .sampled_aovs = wanted});
+    for (std::uint32_t y = 0; y < kSampledSize.height; ++y) {
+      EXPECT_NEAR(value(film, 0, 13, y), 0.7, 1.0 / 100) << y;
+      EXPECT_EQ(value(film, 0, 2, y), 0);
+      EXPECT_EQ(value(film, 0, 17, y), 1);
+      EXPECT_EQ(value(by_passes, 0, 13, y), value(film, 0, 13, y));
+    }
+  }
+  const Film many = drawn_samples({.samples = 300, .sampled_aovs = wanted});
+  EXPECT_EQ(value(many, 0, 13, 5), value(many, 3, 13, 5));
+}
+
 /// Renders the emission and the features of what a camera at the origin sees.
 Film seen_features(Scene scene, RenderOptions options) {
   static const PathIntegrator path;
