@@ -308,8 +308,8 @@ def checkpoint(ranges, compressed=False, width=3, height=2):
     """Returns a checkpoint in the format of src/io/checkpoint/checkpoint.cpp, without the digest at the end."""
     identity = b"--seed\t1\n"
     samples = sum(last - first for first, last in ranges)
-    head = b"microtrace samples\n" + struct.pack("<II", 3, len(identity)) + identity
-    head += struct.pack("<IIdI", 1, samples, 0.5, 1) + struct.pack("<6I3f", width, height, 0, 0, width, height, 0, 0.25, 1)
+    head = b"microtrace samples\n" + struct.pack("<II", 4, len(identity)) + identity
+    head += struct.pack("<4IdI", 1, 1, 0, samples, 0.5, 1) + struct.pack("<6I3f", width, height, 0, 0, width, height, 0, 0.25, 1)
     head += struct.pack("<I", len(ranges)) + b"".join(struct.pack("<2I", *r) for r in ranges)
     pixel = b"".join(struct.pack("<Q", word) for word in (0, samples, 1 << 63, samples, 5, 2, samples << 46, 0, 9, samples))
     pixel += struct.pack("<I", samples)
