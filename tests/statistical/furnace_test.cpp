@@ -169,6 +169,23 @@ TEST(Furnace, Glass) {
   expect_white("a body of air", glass, {}, 0.02);
 }
 
+TEST(Furnace, MixturesOfMetalAndDielectric) {
+  Parameters p = kWhite;
+  for (const float metallic : {0.1F, 0.5F, 0.9F}) {
+    p.metallic = metallic;
+    p.transmission = 0;
+    p.eta.reset();
+    expect_white("mixture", p, {}, 0.004);
+    expect_white("mixture under a coat", p, Layers{.coat = 1, .coat_roughness = 0.2F}, 0.006);
+    p.transmission = 0.7F;
+    expect_white("thin wall with metal", p, {}, 0.004);
+    for (const float eta : {1.5F, 1 / 1.5F}) {
+      p.eta = eta;
+      expect_white("glass with metal", p, {}, 0.02);
+    }
+  }
+}
+
 // The part that is not transmitted is reflected diffusely, also from inside.
 TEST(Furnace, HalfTransmittingGlass) {
   Parameters glass = kWhite;

@@ -105,6 +105,13 @@ class BaseBsdf {
   /// medium: pigments that touch the medium reflect its light without a boundary in between. `here`
   /// and `mean` are Left::diffuse for wo and on average.
   void uncover_opaque_part(const Surface<N>& surface, const F& here, const F& mean);
+  /// Reflectances at normal incidence.
+  struct HeadOn {
+    V dielectric, metal;
+  };
+  /// The fraction of the energy lost by single scattering that metal and dielectric reflect.
+  [[nodiscard]] V multiply_scattered(const Surface<N>& surface, const V& f0, const HeadOn& parts,
+                                     const F& white_mean) const;
   void add_transmission(const Surface<N>& surface, const V& f0, const F& white_mean,
                         const F& several);
   void add_refraction_loss(const Surface<N>& surface);
@@ -123,9 +130,9 @@ class BaseBsdf {
   [[nodiscard]] V reflectance(const F& cosine) const;
   /// The probability of sampling reflection, given a sampled microfacet normal.
   [[nodiscard]] F reflection_probability(const Shares& shares) const;
-  /// Sets the dielectric's reflectance with the film, and returns the approximate reflectance of
-  /// metal and dielectric combined at normal incidence.
-  V add_film(const F& roughness);
+  /// Sets the dielectric's reflectance with the film and `parts`, and returns the approximate
+  /// reflectance of metal and dielectric combined at normal incidence.
+  V add_film(const F& roughness, HeadOn& parts);
   /// The transmittance of the coating for wo or wi, whichever is smaller.
   [[nodiscard]] F transmittance(const Coating<N>& coating, const V& wi) const {
     return smaller_of(transmittance_, coating.transmittance(wi));

@@ -18,6 +18,7 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   const F least = all<N>(1e-6F), dielectric = 1 - p.metallic;
   if (coating != nullptr) transmittance_ = coating->transmittance(wo);
   V f0 = specular_.f0;
+  HeadOn parts{p.dielectric.f0, p.base_color};
   if (features_.transmits || features_.has_film || features_.is_spec) {
     metallic_ = p.metallic;
     dielectric_ = p.dielectric;
@@ -25,7 +26,7 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   }
   if (features_.has_film) {
     film_ = p.film;
-    f0 = add_film(p.roughness);
+    f0 = add_film(p.roughness, parts);
   }
   const Albedo<N> white_mean = albedo_.mean(), there = albedo_.at(wo);
   multiply_reflected_ = multiple_scattering(greatest_.f0, greatest_.f90, white_mean.f1);
@@ -33,7 +34,7 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   Left mean{.f1 = F{}, .diffuse = all<N>(1)}, here = mean;
   if (!features_.is_spec) mean = mean_left(coating), here = left(coating, wo);
   const F several = kInversePi / larger_of(mean.f1, least) * here.f1;
-  multiple_ = multiple_scattering(f0, specular_.f90, white_mean.f1) * several;
+  multiple_ = multiply_scattered(p, f0, parts, white_mean.f1) * several;
   const F mean_diffuse = larger_of(mean.diffuse, least);
   const F opaque = features_.transmits ? 1 - p.transmission : all<N>(1);
   const F diffuse = dielectric * opaque * kInversePi * here.diffuse / mean_diffuse;
@@ -95,8 +96,24 @@ void BaseBsdf<N, Parts>::uncover_opaque_part(const Surface<N>& p, const F& here,
         (bare_ * kInversePi * p.diffuse_transmission * kept) * p.diffuse_transmission_color;
     bare_diffuse_ = (bare_ * kInversePi * (1 - p.diffuse_transmission)) * p.base_color;
   }
-  // Refracted light has its own energy compensation, and the bare part reflects all light.
-  multiple_ *= 1 - dielectric * (from_denser ? all<N>(1) : p.transmission);
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::multiply_scattered(const Surface<N>& p, const V& f0, const HeadOn& parts,
+                                            const F& white_mean) const -> V {
+  const F dielectric = 1 - p.metallic;
+  F covered = all<N>(1);  // fraction of the dielectric that is compensated here
+  V pure = multiple_scattering(f0, specular_.f90, white_mean);
+  if (features_.refracts) {
+    // Refracted light has its own energy compensation, and the bare part reflects all light.
+    covered = p.eta < 1 ? F{} : 1 - p.transmission;
+    pure *= p.metallic + dielectric * covered;
+  }
+  const auto is_mixed = (p.metallic > 0) & (p.metallic < 1);
+  if (!any(is_mixed)) return pure;
+  const V of_metal = multiple_scattering(parts.metal, all<N>(1), white_mean);
+  const V of_dielectric = multiple_scattering(parts.dielectric, p.dielectric.f90, white_mean);
+  return select3(is_mixed, V(p.metallic * of_metal + (dielectric * covered) * of_dielectric), pure);
 }
 
 template <int N, class Parts>
@@ -143,7 +160,7 @@ void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
 }
 
 template <int N, class Parts>
-auto BaseBsdf<N, Parts>::add_film(const F& roughness) -> V {
+auto BaseBsdf<N, Parts>::add_film(const F& roughness, HeadOn& parts) -> V {
   const F alpha = roughness * roughness;
   const F least = 2.6F * alpha / (1 + 1.25F * alpha);
   least_square_ = least * least;
@@ -177,6 +194,7 @@ auto BaseBsdf<N, Parts>::add_film(const F& roughness) -> V {
   const V both =
       select3(metallic_ > 0, select3(metallic_ < 1, mixed(dielectric, metal, metallic_), metal),
               dielectric);
+  parts = {mixed(dielectric_.f0, dielectric, film_.share), mixed(metal_.f0, metal, film_.share)};
   return mixed(specular_.f0, both, film_.share);
 }
 
