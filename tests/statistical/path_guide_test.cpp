@@ -66,7 +66,9 @@ TEST(PathGuide, GuidedPicturesHaveTheMeanOfOthersAndLessNoise) {
   const Estimate guided = estimate(scene, kCamera, shot, kPictures);
   EXPECT_NEAR(guided.mean, plain.mean, 4 * std::hypot(guided.deviation, plain.deviation));
   EXPECT_GT(guided.mean, 0);
-  // The noise of pixels is less affected by chance than that of the means of pictures.
+  // The noise of pixels is less affected by chance than that of the means of pictures. Guides need
+  // some samples to learn from.
+  shot.samples = 128;
   const auto noise = [&](bool is_guided) {
     shot.guiding = is_guided;
     shot.seed = 1;
@@ -80,7 +82,7 @@ TEST(PathGuide, GuidedPicturesHaveTheMeanOfOthersAndLessNoise) {
     }
     return std::sqrt(sum);
   };
-  EXPECT_LT(noise(true), 0.95 * noise(false));
+  EXPECT_LT(noise(true), 0.9 * noise(false));
 }
 
 TEST(PathGuide, ThreadsAndCropsDoNotChangeTheBytes) {

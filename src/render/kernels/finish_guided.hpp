@@ -2,23 +2,9 @@
 /// Finishes the sampling of directions by a mixture of BSDF and guide.
 
 #include "render/kernels/kernel.hpp"
-#include "render/luminance.hpp"
-#include "simd/vector3.hpp"
+#include "render/kernels/survival.hpp"
 
 namespace microtrace {
-
-/// The survival probability of a path with this throughput, if it had been sampled by the BSDF
-/// only. It is in proportion to the light that the path is expected to find, not to the throughput,
-/// which is small in the directions that the guide prefers (J. Vorba and J. Křivánek,
-/// Adjoint-driven Russian roulette and splitting in light transport simulation, 2016).
-template <int N>
-Float<N> guided_survival(const Floats3<N>& throughput, const Float<N>& brightness) {
-  constexpr float kSurvival = 3, kLeast = 0.1F;
-  const Float<N> plain = greatest_component(throughput);
-  const Float<N> expected =
-      larger_of(Float<N>(kSurvival * luminance(throughput) * brightness), Float<N>(kLeast * plain));
-  return brightness < 0 ? plain : expected;
-}
 
 template <int N>
 void finish_guided_from(float most_survival, ScatterLanes& lanes, int i) {
@@ -32,7 +18,7 @@ void finish_guided_from(float most_survival, ScatterLanes& lanes, int i) {
     // Paths through glass are about to find light that other paths can't find.
     const F wanted = load<N>(lanes.is_smooth + i) != 0
                          ? all<N>(1)
-                         : guided_survival<N>(value / own, load<N>(lanes.brightness + i));
+                         : guided_survival_of<N>(value / own, load<N>(lanes.brightness + i));
     const F survival = smaller_of(wanted, all<N>(most_survival));
     survives = survives & (load<N>(lanes.chances[1] + i) < survival);
     next = next / survival;

@@ -5,6 +5,7 @@
 #include "render/integrators/power_heuristic.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/survival.hpp"
 
 namespace microtrace {
 
@@ -97,7 +98,7 @@ class Vertices {
     }
     auto survives = (e.pdf > 0) & is_consistent(wi, local.z);
     if (setup.most_survival < 1) {
-      const F survival = smaller_of(greatest_component(next), all<N>(setup.most_survival));
+      const F survival = smaller_of(survival_of<N>(next), all<N>(setup.most_survival));
       survives = survives & (chances.y < survival);
       next = next / survival;  // not by its reciprocal, which may overflow
     }
