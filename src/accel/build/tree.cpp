@@ -76,7 +76,7 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   references.bounded.reserve(references.bounded.size() + boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i)
     references.bounded.emplace_back(boxes[i], static_cast<PrimitiveId>(i), kInstanceWeight);
-  boxes = {};
+  std::vector<build::Box>().swap(boxes);
   BinaryTree binary = build_binary_tree(std::move(references.bounded),
                                         options.fast ? kBinsForPreview : kMaxBins, pool);
   if (binary.ids.empty()) {
