@@ -72,6 +72,13 @@ class Bounds(ProgramTest):
                     self.assertLess(peak / 1024, 3 * limit + 64)
                 self.assertFalse((self.folder / "out.ppm").exists())
 
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "sanitizers need memory of their own")
+    def test_json_takes_no_more_than_is_counted(self):
+        code, said, peak = self.measured(self.write("small_members", 400_000), "--stats=json", "--size", "4x4")
+        self.assertEqual(code, 0, said)
+        statistics = json.loads([line for line in said.splitlines() if line.startswith("{")][-1])
+        self.assertLess(peak / 1024 - 30, statistics["counted_memory_mib"])
+
     def test_pictures_count_against_the_limit(self):
         scene = SOURCE / "scenes/perspective1.json"
         self.draw(scene, "--size", "4000x4000", "--memory-limit", "100M", code=6)

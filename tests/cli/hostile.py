@@ -399,6 +399,10 @@ def long_unknown_key(n):
     return asset(nodes=[{"mesh": 0, "x" * n: 0}])
 
 
+def small_members(n):
+    return asset(extras={f"member {i} with a name of some length": {} for i in range(n)})
+
+
 def unknown_keys(n):
     return asset(extras={str(i): i for i in range(n)})
 
@@ -477,7 +481,7 @@ GLTF = {f.__name__: f for f in (
     extensions_used, equal_extensions_used, undeclared_extensions, instance_attributes,
     children_behind_unknown_keys, channels_of_one_long_sampler, images_of_one_long_view, extensions, extensions_of_nodes, nodes_and_extensions_used, warnings,
     equal_warnings, instances, zeros, zeros_with_attributes, sparse_zeros, points, pixels, long_name,
-    long_unknown_key, unknown_keys, deep_extras, repeated_keys, repeated_keys_under_a_long_one,
+    small_members, long_unknown_key, unknown_keys, deep_extras, repeated_keys, repeated_keys_under_a_long_one,
     values_under_a_long_key, attributes_of_long_names)}
 
 

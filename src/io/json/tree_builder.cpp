@@ -1,10 +1,10 @@
 #include "io/json/tree_builder.hpp"
 
-#include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "io/json/members.hpp"
 #include "io/json/syntax.hpp"
 #include "io/json/token.hpp"
+#include "io/json/tree_memory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool string(string_t& value) override {
     const std::size_t start = next_token().token;
-    if (value.size() > kLongString) take_memory(2 * value.size(), "the strings of JSON");
+    memory_.take_boxed(value);
     return scalar(JsonValue(std::string(value)), string_end(text_, start) - start);
   }
 
@@ -68,7 +68,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool key(string_t& name) override {
     const std::size_t start = next_token().token;
-    members_.push_back({.key = name, .value = {}});
+    memory_.take_member(name);
+    memory_.push(members_, JsonMember{.key = name, .value = {}});
     members_.back().value.key_offset = static_cast<std::uint32_t>(start);
     end_ = string_end(text_, start);
     last_ = Last::key;
@@ -97,11 +98,6 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  /// Memory is counted in blocks of this many values. A value may be a member with a key and have a
-  /// box with one value of its own.
-  static constexpr std::size_t kBlock = 1024, kBytesOfValue = 4 * sizeof(JsonValue);
-  static constexpr std::size_t kLongString = 256;
-
   enum class Last { open, key, value };
 
   /// An array or object whose end has not been read.
@@ -154,7 +150,6 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
                .append(std::to_string(max_values_))
                .append(", the limit"));
     }
-    if (count_ % kBlock == 1) take_memory(kBlock * kBytesOfValue, "the values of JSON");
   }
 
   /// Adds a value to the innermost open one.
@@ -164,7 +159,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     if (open_.empty()) {
       root_ = std::move(value);
     } else if (open_.back().kind == JsonValue::Kind::array) {
-      items_.push_back(std::move(value));
+      memory_.take_item();
+      memory_.push(items_, std::move(value));
     } else {
       JsonValue& member = members_.back().value;
       value.key_offset = member.key_offset;
@@ -195,6 +191,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
                   document_.at(start, "", "arrays and objects are nested more than 256 deep"));
     }
     count(start);
+    memory_.take_container();
     open_.push_back({kind, start, items_.size(), members_.size()});
     end_ = start + 1;
     last_ = Last::open;
@@ -209,6 +206,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   void make_keys_unique(std::vector<JsonMember>& members) {
+    const MemoryAccount keys = memory_of_keys(members.size());
     const RepeatedMembers repeated = repeated_members(members);
     const std::vector<std::size_t>& outdone = repeated.outdone;
     if (outdone.empty()) return;
@@ -270,7 +268,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   std::vector<JsonMember> members_;  // of all open objects
   std::size_t end_ = 0;              // end of the last token
   Last last_ = Last::open;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0;  // number of values
+  TreeMemory memory_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "io/json/boxed.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -21,7 +22,7 @@ class JsonValue {
   enum class Kind : std::uint8_t { null, boolean, number, string, array, object };
 
   JsonValue() noexcept;
-  explicit JsonValue(bool boolean);
+  explicit JsonValue(std::same_as<bool> auto boolean) : content_(boolean) {}
   explicit JsonValue(double finite);
   explicit JsonValue(std::string string);
   explicit JsonValue(std::vector<JsonValue> items);
@@ -96,7 +97,6 @@ struct JsonValue::Members {
 static_assert(sizeof(JsonValue) == 24);
 
 inline JsonValue::JsonValue() noexcept = default;
-inline JsonValue::JsonValue(bool boolean) : content_(boolean) {}
 inline JsonValue::JsonValue(double finite) : content_(finite) {}
 inline JsonValue::JsonValue(std::string string) : content_(Boxed(std::move(string))) {}
 inline JsonValue::JsonValue(std::vector<JsonValue> items) : content_(Boxed(std::move(items))) {}

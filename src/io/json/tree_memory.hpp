@@ -1,0 +1,72 @@
+#pragma once
+/// Counts the memory of JSON values before it is allocated.
+
+#include "base/memory_account.hpp"
+#include "io/json/value.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace microtrace::io {
+
+class TreeMemory {
+ public:
+  /// Counts an element of an array without its content.
+  void take_item() { take(sizeof(JsonValue)); }
+  /// Counts a member without its value's content, and its place in the index of large objects.
+  void take_member(const std::string& key) {
+    take(sizeof(JsonMember) + sizeof(std::uint32_t) + bytes_beside(key));
+  }
+  /// Counts the content of a string value.
+  void take_boxed(const std::string& text) {
+    take(sizeof(std::string) + kBytesOfAllocation + bytes_beside(text));
+  }
+  /// Counts the content of an array or object without its elements or members.
+  void take_container() {
+    take(2 * sizeof(std::vector<JsonValue>) + 2 * kBytesOfAllocation);  // an object has two vectors
+  }
+
+  /// Adds an element to a stack. A stack that is full doubles, and the old one is freed afterwards.
+  template <class T>
+  void push(std::vector<T>& stack, T value) {
+    if (stack.size() == stack.capacity())
+      take(3 * std::max<std::size_t>(stack.size(), 1) * sizeof(T) / 2);
+    stack.push_back(std::move(value));
+  }
+
+ private:
+  /// What an allocation needs beside its content.
+  static constexpr std::size_t kBytesOfAllocation = 16;
+
+  static std::size_t bytes_beside(const std::string& text) {
+    constexpr std::size_t kMostInPlace = 15;
+    return text.size() > kMostInPlace ? text.size() + 1 + kBytesOfAllocation : 0;
+  }
+
+  void take(std::size_t bytes) {
+    constexpr std::size_t kBlock = std::size_t{1} << 16U;
+    if (bytes > left_) {
+      const std::size_t taken = std::max(kBlock, bytes);
+      take_memory(taken, "the values of JSON");
+      left_ += taken;
+    }
+    left_ -= bytes;
+  }
+
+  std::size_t left_ = 0;  // bytes that are counted but not allocated yet
+};
+
+/// The temporary memory for finding the repeated ones of so many keys. Few need no account.
+[[nodiscard]] inline MemoryAccount memory_of_keys(std::size_t count) {
+  constexpr std::size_t kFew = 1024;
+  if (count <= kFew) return MemoryAccount(nullptr);
+  return temporary_memory(count * sizeof(std::pair<std::string_view, std::size_t>),
+                          "the keys of JSON");
+}
+
+}  // namespace microtrace::io
