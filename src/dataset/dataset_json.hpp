@@ -27,8 +27,10 @@ auto read_own(std::string_view text, const std::filesystem::path& path, const Re
     const io::JsonDocument document(text, path.string());
     return read(io::JsonReader(document));
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::invalid_scene) throw;
     Diagnostic damage = error.diagnostic();
+    // Errors about memory name no file, but limits of JSON texts do.
+    const bool exceeds_text = error.kind() == ErrorKind::limit && !damage.file.empty();
+    if (error.kind() != ErrorKind::invalid_scene && !exceeds_text) throw;
     damage.message.insert(0, "is damaged: ");
     throw Error(ErrorKind::io, std::move(damage));
   }

@@ -309,7 +309,7 @@ class Dataset(ProgramTest):
         folder = self.folder / "out"
         for name, command in (("manifest.json", self.verify), ("dataset.json", self.verify), ("dataset.json", lambda code: self.dataset(*options, code=code))):
             text = (folder / name).read_text()
-            for damaged in ("", text[:-20], text.replace("{", "[", 1)):
+            for damaged in ("", text[:-20], text.replace("{", "[", 1), "[" * 300):
                 (folder / name).write_text(damaged)
                 message = command(code=5)
                 self.assertIn(name, message)
