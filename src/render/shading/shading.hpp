@@ -176,14 +176,17 @@ class Shading {
   [[nodiscard]] bool all_cover() const { return all_cover_; }
 
   /// True if light arrives through the surface on the point's side when backs pass light. This is
-  /// the case on the front of a one-sided surface that is neither emissive nor transmissive.
+  /// the case on the front of a one-sided surface that is neither emissive nor transmissive at this
+  /// point.
   [[nodiscard]] static bool lets_light_in(const ShadingPoint& point) {
     return point.at.front && (point.look->has_open_back ||
                               (point.look->has_open_opaque_parts && is_opaque_part(point)));
   }
   /// True if a material has textures, so that the footprints of paths matter.
   [[nodiscard]] bool has_textures() const { return has_textures_; }
-  /// True if lets_light_in() may return true for a point of the scene.
+  /// True if lets_light_in() may return true for a point of a surface that has no transmission.
+  /// all_cover() is false if there are surfaces with transmission, so no shadow ray takes a
+  /// shortcut.
   [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
   /// The triangles with open backs, one bit per primitive. Null if there are none, or if other
