@@ -25,7 +25,9 @@ enum class SampledAov {
   emission,          ///< R, G, B: mean light that arrives without being scattered: from emissive
                      ///< surfaces, the environment and the background, composited like the colors
   noisy,             ///< R, G, B: the colors before denoising
-  denoise_emission,  ///< R, G, B: emission with at least 256 samples, so that its edges are smooth
+  denoise_emission,  ///< R, G, B: emission with at least 256 samples where surfaces may be visible
+                     ///< that emit light without an emissive texture, so that their edges are
+                     ///< smooth
 };
 
 inline constexpr std::array kSampledAovs = {SampledAov::variance,        SampledAov::samples,

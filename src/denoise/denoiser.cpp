@@ -187,39 +187,42 @@ void clean_features(const Film& film, Filters& filters, Images& images) {
   filters.filter_feature("normal", images.normal);
 }
 
-/// Returns the pixels whose colors remain as they are, given the normals.
-std::vector<bool> kept_pixels(Film& film, std::span<const Vec3> normals) {
-  std::vector<bool> is_kept(normals.size());
+/// Returns the pixels that are not filtered, given the normals: those of the background.
+std::vector<bool> background_pixels(Film& film, std::span<const Vec3> normals) {
+  std::vector<bool> is_background(normals.size());
   for (std::uint32_t y = 0, i = 0; y < film.size().height; ++y) {
     for (std::uint32_t x = 0; x < film.size().width; ++x, ++i) {
       // Features have more samples than some pictures, so they may see an edge where these see
       // none.
-      const bool is_background =
+      is_background[i] =
           normals[i] == Vec3(0) && (!has_noisy_features(film) || is_uniform(film, x, y));
-      is_kept[i] = is_background || (film.has_alpha() && film.alpha_at(x, y) == 0);
     }
   }
-  return is_kept;
+  return is_background;
 }
 
 /// Denoises a film, which has all features.
 void denoise_film(const OidnFunctions& functions, Film& film, const RenderOptions& options) {
-  Images images{.color = exact_light(film, SampledAov::emission),
+  const std::vector<Vec3> emission = exact_light(film, SampledAov::emission);
+  Images images{.color = emission,
                 .albedo = vectors_of(film, SampledAov::denoise_albedo),
                 .normal = vectors_of(film, SampledAov::denoise_normal)};
-  const std::vector<bool> is_kept = kept_pixels(film, images.normal);
+  const std::vector<bool> is_background = background_pixels(film, images.normal);
   Filters filters(functions, film.size(), options);
   if (has_noisy_features(film)) clean_features(film, filters, images);
   const std::uint32_t width = film.size().width, height = film.size().height;
   for (std::uint32_t y = 0, i = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x, ++i)
-      images.color[i] = glm::max(film.at(x, y) - images.color[i], Vec3(0));
+      images.color[i] = glm::max(film.at(x, y) - emission[i], Vec3(0));
   }
   filters.filter_colors(images);
   const std::vector<Vec3> exact = exact_light(film, SampledAov::denoise_emission);
   for (std::uint32_t y = 0, i = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x, ++i) {
-      if (!is_kept[i]) film.at(x, y) = exact[i] + images.color[i];
+      if (film.has_alpha() && film.alpha_at(x, y) == 0) continue;
+      // The background may show other samples of a lamp.
+      Vec3& color = film.at(x, y);
+      color = is_background[i] ? color + (exact[i] - emission[i]) : exact[i] + images.color[i];
     }
   }
 }

@@ -21,7 +21,7 @@ namespace {
 /// samples. It suffices to antialias edges.
 constexpr std::uint32_t kFeatureSamples = 32;
 
-/// The least number of samples of SampledAov::denoise_emission.
+/// The least number of samples of SampledAov::denoise_emission where lamps may be visible.
 constexpr std::uint32_t kEmissionSamples = 256;
 
 struct Row {
@@ -119,6 +119,7 @@ SampledAovPainter::SampledAovPainter(const World& world, const RenderOptions& op
                                .values = std::vector<float>(pixels)});
     }
   }
+  if (has(SampledAov::denoise_emission)) lamps_.emplace(world.scene, world.camera, window);
 }
 
 float& SampledAovPainter::value(SampledAov aov, std::size_t channel, std::size_t pixel) const {
@@ -197,12 +198,26 @@ void SampledAovPainter::paint_emission(const PixelRect& tile, std::span<const Sa
   }
   if (has(SampledAov::emission)) set_emission(SampledAov::emission, tile, sums);
   if (!has(SampledAov::denoise_emission)) return;
-  // Light that is the same everywhere needs no more samples.
-  const bool is_uniform =
-      std::ranges::all_of(sums, [&](const PixelSum& sum) { return sum == sums.front(); });
-  if (!is_uniform && last < kEmissionSamples)
-    emission_.add(tile, {.first = last, .last = kEmissionSamples}, pixels);
+  if (last < kEmissionSamples) add_at_lamps(tile, {.first = last, .last = kEmissionSamples}, sums);
   set_emission(SampledAov::denoise_emission, tile, sums);
+}
+
+void SampledAovPainter::add_at_lamps(const PixelRect& tile, const SampleRange& range,
+                                     std::span<PixelSum> sums) const {
+  // The choice must not depend on samples: leaving out pixels whose first samples miss a lamp would
+  // make lamps too dark.
+  const std::uint32_t width = tile.size().width;
+  std::uint32_t count = 0;
+  std::array<PixelRect, kTilePixels> pixels;
+  for (std::uint32_t i = 0; i < sums.size(); ++i) {
+    const std::uint32_t x = tile.x0 + i % width, y = tile.y0 + i / width;
+    if (lamps_->contains(x, y)) pixels[count++] = {.x0 = x, .y0 = y, .x1 = x + 1, .y1 = y + 1};
+  }
+  if (count == sums.size()) return emission_.add(tile, range, sums);  // takes less time
+  for (const PixelRect& pixel : std::span(pixels).first(count)) {
+    const std::uint32_t i = (pixel.y0 - tile.y0) * width + (pixel.x0 - tile.x0);
+    emission_.add(pixel, range, sums.subspan(i, 1));
+  }
 }
 
 void SampledAovPainter::set_emission(SampledAov aov, const PixelRect& tile,

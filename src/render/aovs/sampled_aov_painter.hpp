@@ -1,6 +1,7 @@
 #pragma once
 /// Fills the film's channels that contain means over samples.
 
+#include "render/aovs/lamp_pixels.hpp"
 #include "render/camera_rays.hpp"
 #include "render/samples/pixel_filter.hpp"
 #include "render/samples/random_painter.hpp"
@@ -41,6 +42,9 @@ class SampledAovPainter {
   void paint_features(const PixelRect& tile) const;
   void paint_emission(const PixelRect& tile, std::span<const SampleRange> samples,
                       std::uint32_t count) const;
+  /// Adds the samples with the numbers in `range` to the pixels of lamps_.
+  void add_at_lamps(const PixelRect& tile, const SampleRange& range,
+                    std::span<PixelSum> sums) const;
   void set_emission(SampledAov aov, const PixelRect& tile, std::span<const PixelSum> sums) const;
   /// The index in the film of pixel i of the tile.
   [[nodiscard]] std::size_t index_of(const PixelRect& tile, std::size_t i) const;
@@ -58,6 +62,8 @@ class SampledAovPainter {
   Vec3 background_;
   PathIntegrator light_;  ///< takes the same samples as the colors' integrator
   RandomPainter emission_;
+  /// Empty if no channel needs more samples there.
+  std::optional<LampPixels> lamps_;
   const PixelRect& window_;
   Film& film_;
   std::array<std::size_t, kSampledAovs.size()> first_{};  ///< index in the film, or kNone

@@ -4,6 +4,7 @@
 #include <microtrace/sampled_aov.hpp>
 
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <variant>
 #include <vector>
@@ -92,22 +93,72 @@ TEST(SampledAov, NoisyIsTheColor) {
   }
 }
 
-TEST(SampledAov, DenoiseEmissionHasManySamples) {
-  // The background, which covers 0.7 of the pixels in column 13, is light that is not scattered.
-  const std::vector<SampledAov> wanted = {SampledAov::denoise_emission, SampledAov::emission};
-  for (const std::uint32_t samples : {1U, 7U}) {
-    const Film film = drawn_samples({.samples = samples, .sampled_aovs = wanted});
-    const Film by_passes =
-        drawn_samples({.samples = samples, .passes = Passes{}, .sampled_aovs = wanted});
-    for (std::uint32_t y = 0; y < kSampledSize.height; ++y) {
-      EXPECT_NEAR(value(film, 0, 13, y), 0.7, 1.0 / 100) << y;
-      EXPECT_EQ(value(film, 0, 2, y), 0);
-      EXPECT_EQ(value(film, 0, 17, y), 1);
-      EXPECT_EQ(value(by_passes, 0, 13, y), value(film, 0, 13, y));
+/// Renders the emission of a lamp that covers a quarter of a pixel.
+Film lamp_picture(RenderOptions options) {
+  Scene scene;
+  scene.materials = {{.base_color = Vec4(0, 0, 0, 1), .emissive = Vec3(100)}};
+  scene.objects = {{.name = "lamp", .shape = Sphere{{0.13F, -0.07F, -10}, 0.05F}, .material = 0}};
+  static const PathIntegrator path;
+  options.integrator = &path;
+  options.sampled_aovs = {SampledAov::denoise_emission, SampledAov::emission};
+  return render(scene, PerspectiveCamera{.vertical_fov = 0.35}, kSampledSize, options);
+}
+
+double sum_of(const Film& film, std::size_t channel) {
+  const auto& values = std::get<std::vector<float>>(film.channels.at(channel).values);
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(SampledAov, DenoiseEmissionHasManySamplesOfLamps) {
+  const Film exact = lamp_picture({.samples = 4096});
+  EXPECT_EQ(sum_of(exact, 0), sum_of(exact, 3));
+  for (const std::uint32_t samples : {1U, 16U}) {
+    double sum = 0;
+    constexpr int kSeeds = 8;
+    for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
+      const Film film = lamp_picture({.samples = samples, .seed = seed});
+      EXPECT_NEAR(sum_of(film, 0), sum_of(exact, 0), 0.4 * sum_of(exact, 0));
+      sum += sum_of(film, 0) / kSeeds;
     }
+    EXPECT_NEAR(sum, sum_of(exact, 0), 0.1 * sum_of(exact, 0)) << samples;
   }
-  const Film many = drawn_samples({.samples = 300, .sampled_aovs = wanted});
-  EXPECT_EQ(value(many, 0, 13, 5), value(many, 3, 13, 5));
+}
+
+TEST(SampledAov, PartsHaveTheDenoiseEmissionOfTheWhole) {
+  const Film whole = lamp_picture({.samples = 2});
+  const PixelRect part{.x0 = 3, .y0 = 5, .x1 = 18, .y1 = 15};
+  const Film crop = lamp_picture({.samples = 2, .crop = part});
+  const Film by_passes = lamp_picture({.samples = 2, .passes = Passes{}});
+  const auto& values = std::get<std::vector<float>>(crop.channels.at(0).values);
+  for (std::uint32_t y = part.y0, i = 0; y < part.y1; ++y) {
+    for (std::uint32_t x = part.x0; x < part.x1; ++x, ++i)
+      EXPECT_EQ(values[i], value(whole, 0, x, y));
+  }
+  EXPECT_EQ(by_passes.channels[0].values, whole.channels[0].values);
+}
+
+TEST(SampledAov, LampsAreFoundByAllCameras) {
+  // Only a pinhole with a perspective projection allows choosing pixels.
+  const std::vector<SampledAov> wanted = {SampledAov::denoise_emission, SampledAov::emission};
+  Scene scene;
+  scene.materials = {{.base_color = Vec4(0, 0, 0, 1), .emissive = Vec3(1)}};
+  scene.objects = {
+      {.name = "lamp", .shape = Disc{{0.03F, 0.03F, -2}, {0, 0, 1}, 0.02F}, .material = 0},
+      {.name = "behind", .shape = Sphere{{0, 0, 5}, 1}, .material = 0}};
+  const Pose pose{};
+  for (const Camera& camera :
+       {Camera(PerspectiveCamera{.pose = pose}), Camera(OrthographicCamera{.pose = pose}),
+        Camera(EnvironmentCamera{.pose = pose}),
+        Camera(PerspectiveCamera{.pose = pose, .focus = 2, .lens_radius = 0.01})}) {
+    static const PathIntegrator path;
+    const auto film = [&](std::uint32_t samples) {
+      return render(scene, camera, kSampledSize,
+                    {.integrator = &path, .samples = samples, .sampled_aovs = wanted});
+    };
+    const double exact = sum_of(film(4096), 3);
+    EXPECT_GT(exact, 0) << camera.index();
+    EXPECT_NEAR(sum_of(film(1), 0), exact, 0.5 * exact) << camera.index();
+  }
 }
 
 /// Renders the emission and the features of what a camera at the origin sees.
