@@ -69,7 +69,8 @@ class Picture(Mapping[str, Array]):
     - denoise_albedo, denoise_normal: float32, 3 channels; means over the samples.
     - emission, noisy: float32, 3 channels; light that arrives without being scattered, and the
       colors before denoising.
-    - denoise_emission: float32, 3 channels; emission with at least 256 samples where lamps may be visible.
+    - denoise_emission: float32, 3 channels; emission with at least 256 samples where lamps may be
+      visible.
     """
 
     def __init__(

@@ -62,7 +62,7 @@ def test_shadows_on_the_ground_have_less_noise():
 
     shown = mt.render(prepared, size=SIZE, spp=1, aovs=["denoise_normal"])["denoise_normal"]
     ground = np.all(shown == 0, axis=-1)
-    truth = color(128, seed=1)
+    truth = color(512, seed=1)
 
     def error(picture):
         return np.sqrt(np.mean((picture - truth)[ground] ** 2))

@@ -20,14 +20,15 @@ void JsonValue::Members::index() {
 }
 
 std::size_t JsonValue::position(std::string_view key) const {
-  const auto& [list, by_key] = boxed<Members>();
-  if (by_key.empty()) {
+  const Members& own = boxed<Members>();
+  const std::vector<JsonMember>& list = own.list;
+  if (own.by_key.empty()) {
     const auto found = std::ranges::find(list, key, &JsonMember::key);
     return static_cast<std::size_t>(found - list.begin());
   }
   const auto found = std::ranges::lower_bound(
-      by_key, key, {}, [&list](std::uint32_t i) { return std::string_view(list[i].key); });
-  const bool is_there = found != by_key.end() && list[*found].key == key;
+      own.by_key, key, {}, [&list](std::uint32_t i) { return std::string_view(list[i].key); });
+  const bool is_there = found != own.by_key.end() && list[*found].key == key;
   return is_there ? *found : list.size();
 }
 

@@ -56,7 +56,7 @@ LampPixels::LampPixels(const Scene& scene, const RayGenerator& camera, const Pix
       !camera.has_lens() && camera.frustum(window.x0, window.y0, window.x0 + 1, window.y0 + 1);
   // The number of parts that contain a pixel is the sum of the differences above and left of it.
   const std::size_t columns = std::size_t{width} + 1;
-  std::vector<std::int64_t> differences(columns * (height + 1));
+  std::vector<std::int32_t> differences(columns * (height + 1));
   const auto begin_of = [](double low, std::uint32_t first, std::uint32_t size) {
     return static_cast<std::size_t>(std::clamp<double>(std::floor(low) - first, 0, size));
   };
@@ -77,9 +77,9 @@ LampPixels::LampPixels(const Scene& scene, const RayGenerator& camera, const Pix
     ++differences[y1 * columns + x1];
   }
   is_in_.resize(std::size_t{width} * height);
-  std::vector<std::int64_t> above(columns);
+  std::vector<std::int32_t> above(columns);
   for (std::size_t y = 0; y < height; ++y) {
-    std::int64_t left = 0;
+    std::int32_t left = 0;
     for (std::size_t x = 0; x < width; ++x) {
       above[x] += differences[y * columns + x];
       left += above[x];
