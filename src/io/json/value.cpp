@@ -20,7 +20,7 @@ void JsonValue::Members::index() {
 }
 
 std::size_t JsonValue::position(std::string_view key) const {
-  const Members& own = boxed<Members>();
+  const auto& own = boxed<Members>();
   const std::vector<JsonMember>& list = own.list;
   if (own.by_key.empty()) {
     const auto found = std::ranges::find(list, key, &JsonMember::key);

@@ -156,6 +156,7 @@ void set_property(JsonValue& part, const AnimatedProperty& property,
     at = at->kind() == JsonValue::Kind::array ? at->find(index_in(token).value()) : at->find(token);
   }
   std::vector<JsonValue> numbers;
+  numbers.reserve(value.size());
   for (const double x : value) numbers.emplace_back(std::clamp(x, property.min, property.max));
   JsonValue& target = make_member(*at, property.path.back());
   target.set(property.is_array ? JsonValue(std::move(numbers)) : std::move(numbers[0]));
