@@ -153,17 +153,21 @@ TEST(Furnace, FilmsDoNotDependOnAnImperceptibleTransmission) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(opaque[c], transmitting[c], 0.003);
 }
 
+/// Expects that the surface of a body with this index of refraction loses little from both sides.
+void expect_white_from_both_sides(const char* what, Parameters glass, float ior) {
+  const float r = (ior - 1) / (ior + 1);
+  glass.dielectric.f0 = Vec3(r * r);
+  glass.eta = ior;
+  expect_white(what, glass, {}, 0.01);
+  glass.eta = 1 / ior;
+  expect_white((std::string(what) + " from within").c_str(), glass, {}, 0.02);
+}
+
 TEST(Furnace, Glass) {
   Parameters glass = kWhite;
   glass.transmission = 1;
-  for (const float ior : {1.1F, 1.33F, 1.5F, 1.8F, 2.4F}) {
-    const float r = (ior - 1) / (ior + 1);
-    glass.dielectric.f0 = Vec3(r * r);
-    glass.eta = ior;
-    expect_white("glass", glass, {}, 0.01);
-    glass.eta = 1 / ior;
-    expect_white("glass from within", glass, {}, 0.02);
-  }
+  for (const float ior : {1.1F, 1.33F, 1.5F, 1.8F, 2.4F})
+    expect_white_from_both_sides("glass", glass, ior);
   glass.eta = 1.0F;
   glass.dielectric = {.f0 = Vec3(0), .f90 = 0};
   expect_white("a body of air", glass, {}, 0.02);
@@ -193,12 +197,7 @@ TEST(Furnace, HalfTransmittingGlass) {
     glass.transmission = transmission;
     for (const float ior : {1.33F, 1.8F}) {
       glass.diffuse_transmission = ior == 1.8F ? 0.5F : 0;
-      const float r = (ior - 1) / (ior + 1);
-      glass.dielectric.f0 = Vec3(r * r);
-      glass.eta = ior;
-      expect_white("half-transmitting glass", glass, {}, 0.01);
-      glass.eta = 1 / ior;
-      expect_white("half-transmitting glass from within", glass, {}, 0.02);
+      expect_white_from_both_sides("half-transmitting glass", glass, ior);
     }
   }
 }
