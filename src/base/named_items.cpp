@@ -1,10 +1,9 @@
 #include "base/named_items.hpp"
 
+#include "base/index_text.hpp"
 #include "base/printable.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
 
 namespace microtrace {
 
@@ -12,10 +11,8 @@ std::optional<std::size_t> find_item(std::string_view wanted, std::span<const st
   const auto named = std::ranges::find(names, wanted);
   if (!wanted.empty() && named != names.end())
     return static_cast<std::size_t>(named - names.begin());
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-  const bool is_index = error == std::errc() && end == wanted.data() + wanted.size();
-  return is_index && index < names.size() ? std::optional(index) : std::nullopt;
+  const std::optional<std::size_t> index = index_in(wanted);
+  return index && *index < names.size() ? index : std::nullopt;
 }
 
 std::string no_such_item(std::string_view kind, std::string_view wanted,

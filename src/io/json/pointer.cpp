@@ -1,8 +1,8 @@
+#include "base/index_text.hpp"
 #include "io/json/document.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
+#include <optional>
 
 namespace microtrace::io {
 namespace {
@@ -25,10 +25,8 @@ std::optional<std::string> unescaped(std::string_view token) {
 template <typename Value>
 Value* step(Value& value, const std::string& token) {
   if (value.kind() != JsonValue::Kind::array) return value.find(token);
-  std::size_t index = 0;
-  const char* end = token.data() + token.size();
-  const auto [rest, error] = std::from_chars(token.data(), end, index);
-  return error == std::errc() && rest == end ? value.find(index) : nullptr;
+  const std::optional<std::size_t> index = index_in(token);
+  return index ? value.find(*index) : nullptr;
 }
 
 template <typename Value>

@@ -1,6 +1,7 @@
 #include "render/aovs/lamp_pixels.hpp"
 
 #include "scene/support.hpp"
+#include "scene/translation_to_origin.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +35,8 @@ Part part_of(const Shape& shape, const RayGenerator& camera, ChunkedMeshes& chun
   if (!box) return kEverywhere;
   Part part;
   int in_front = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    DVec3 p;
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = (corner >> axis & 1) == 0 ? box->low[axis] : box->high[axis];
-    const std::optional<DVec2> pixel = camera.project(p);
+  for (const DVec3& corner : corners_of({.low = box->low, .high = box->high})) {
+    const std::optional<DVec2> pixel = camera.project(corner);
     if (!pixel) continue;
     ++in_front;
     part.low = glm::min(part.low, *pixel);

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 3> kAnimatedMembers = {"materials", "came
 
 const JsonValue* item_of(const JsonValue& array, std::string_view token) {
   const std::optional<std::size_t> index = index_in(token);
-  return index && *index < array.items().size() ? &array.items()[*index] : nullptr;
+  return index ? array.find(*index) : nullptr;
 }
 
 /// Follows a JSON pointer through the asset and, at the same time, through the schema's rules.

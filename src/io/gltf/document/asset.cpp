@@ -11,7 +11,8 @@ Element Element::member(std::string_view key) const {
 }
 
 Element Element::item(std::size_t index) const {
-  return {index < value->items().size() ? &value->items()[index] : value, child(pointer, index)};
+  const JsonValue* found = value->find(index);
+  return {found != nullptr ? found : value, child(pointer, index)};
 }
 
 Asset::Asset(JsonDocument& json) : json_(json) {

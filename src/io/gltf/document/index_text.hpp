@@ -1,21 +1,13 @@
 #pragma once
-/// Parses indices written as text.
+#include "base/index_text.hpp"
 
-#include <charconv>
 #include <cstddef>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
 namespace microtrace::io::gltf {
 
-/// Returns the number, if the text consists of decimal digits only.
-[[nodiscard]] inline std::optional<std::size_t> index_in(std::string_view text) {
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
+using microtrace::index_in;
 
 /// Returns the set number of a vertex attribute, for example 1 for TEXCOORD_1.
 [[nodiscard]] inline std::optional<std::size_t> set_in(std::string_view attribute) {

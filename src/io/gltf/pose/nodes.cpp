@@ -51,10 +51,11 @@ std::vector<std::size_t> NodeTree::roots() const {
 }
 
 DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) const {
+  static const NodePose kAsInFile;
   const Model::Node& node = model_.nodes[index];
   const auto posed = pose.empty() ? pose.end() : pose.find(index);
   const auto& [translation, scale, rotation, weights, visible] =
-      posed != pose.end() ? posed->second : NodePose{};
+      posed != pose.end() ? posed->second : kAsInFile;
   if (node.matrix && !translation && !scale && !rotation) {
     DMat4 result = *node.matrix;
     for (int i = 0; i < 4; ++i)
