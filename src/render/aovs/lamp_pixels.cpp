@@ -35,7 +35,7 @@ Part part_of(const Shape& shape, const RayGenerator& camera, ChunkedMeshes& chun
   if (!box) return kEverywhere;
   Part part;
   int in_front = 0;
-  for (const DVec3& corner : corners_of({.low = box->low, .high = box->high})) {
+  for (const DVec3& corner : corners_of(PointBounds{.low = box->low, .high = box->high})) {
     const std::optional<DVec2> pixel = camera.project(corner);
     if (!pixel) continue;
     ++in_front;
