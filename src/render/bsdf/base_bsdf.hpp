@@ -10,6 +10,7 @@
 #include "render/bsdf/refraction_loss.hpp"
 #include "render/bsdf/surface.hpp"
 #include "render/luminance.hpp"
+#include "simd/gather.hpp"
 
 namespace microtrace::bsdf {
 

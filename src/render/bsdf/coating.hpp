@@ -5,6 +5,7 @@
 #include "render/bsdf/ggx_albedo.hpp"
 #include "render/bsdf/sheen.hpp"
 #include "render/bsdf/surface.hpp"
+#include "simd/gather.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -2,8 +2,8 @@
 /// Directional albedos of microfacets, for N lanes.
 
 #include "render/bsdf/ggx.hpp"
+#include "render/bsdf/table_cell.hpp"
 #include "render/bsdf/tables/tables.hpp"
-#include "simd/gather.hpp"
 
 namespace microtrace::bsdf {
 
@@ -23,29 +23,6 @@ struct GreatestSchlick {
 
   [[nodiscard]] Float<N> albedo(const Albedo<N>& a) const {
     return f0 * (a.f1 - a.schlick) + f90 * a.schlick;
-  }
-};
-
-/// A position between two entries of a table. Positions beyond the table, which may occur in unused
-/// lanes, are clamped.
-template <int N>
-struct Cell {
-  Int<N> first;
-  Float<N> share;
-
-  /// The position `step`, counted in entries, in a table with `count` entries.
-  Cell(const Float<N>& step, int count) {
-    const Float<N> last = all<N>(static_cast<float>(count - 2));
-    const Float<N> within = step > 0 ? step : Float<N>{};
-    first = truncated<N>(within < last ? within : last);
-    share = step - to_float<N>(first);
-  }
-  [[nodiscard]] Float<N> mixed(const Float<N>& a, const Float<N>& b) const {
-    return a + share * (b - a);
-  }
-  /// Interpolates within the row that starts at the index `row`.
-  [[nodiscard]] Float<N> in_row(const float* table, const Int<N>& row) const {
-    return mixed(gathered<N>(table, row + first), gathered<N>(table + 1, row + first));
   }
 };
 
@@ -71,15 +48,14 @@ class GgxAlbedo {
 
   /// The cosine-weighted mean over all directions.
   [[nodiscard]] Albedo<N> mean() const {
-    return {row_.in_row(kTables.mean_albedo_f1, Int<N>{}),
-            row_.in_row(kTables.mean_albedo_schlick, Int<N>{})};
+    const auto& [v] = Quad<N>(kTables.mean_albedos, row_.first);
+    return {row_.mixed(v[0], v[1]), row_.mixed(v[2], v[3])};
   }
 
  private:
   [[nodiscard]] F between_rows(const float* table, const F& place) const {
     const Cell<N> column(place * (kAlbedoSteps - 1), kAlbedoSteps);
-    const Int<N> row = row_.first * kAlbedoSteps;
-    return row_.mixed(column.in_row(table, row), column.in_row(table + kAlbedoSteps, row));
+    return interpolated<N>(table, kAlbedoSteps, row_, column);
   }
 
   F alpha_;

@@ -1,6 +1,7 @@
 #pragma once
 #include "render/bsdf/ggx_albedo.hpp"
 #include "render/bsdf/tables/tables.hpp"
+#include "simd/gather.hpp"
 
 namespace microtrace::bsdf {
 

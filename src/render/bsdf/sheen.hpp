@@ -2,7 +2,8 @@
 /// Sheen of fibers on a surface (A. Conty Estevez and C. Kulla, Production friendly microfacet
 /// sheen BRDF, 2017), as in KHR_materials_sheen, for N lanes, in the local coordinates of ggx.hpp.
 
-#include "render/bsdf/ggx_albedo.hpp"
+#include "render/bsdf/table_cell.hpp"
+#include "render/bsdf/tables/tables.hpp"
 #include "simd/exponential.hpp"
 
 #include <numbers>
@@ -106,9 +107,7 @@ class SheenLobe {
     const F bend = 0.5F * roughness_, height = clamped(z, F{}, all<N>(1));
     const Cell<N> column(height * (1 + bend) / (height + bend) * (kSheenColumns - 1),
                          kSheenColumns);
-    const int columns = kSheenColumns;
-    const Int<N> row = row_.first * columns;
-    return row_.mixed(column.in_row(table, row), column.in_row(table + columns, row));
+    return interpolated<N>(table, kSheenColumns, row_, column);
   }
 
   F roughness_;

@@ -37,21 +37,10 @@ SampleTerms<N> sample_terms(const Double<N> (&color)[3], const Double<N>& alpha,
 /// Loads N colors with alpha at a distance of `stride` samples, one component per vector.
 template <int N>
 void load_samples(const float* samples, std::size_t stride, Float<N> (&components)[4]) {
-  const auto sample = [&](int i) { return samples + 4 * stride * static_cast<std::size_t>(i); };
-  if constexpr (N % 4 != 0) {
-    for (int c = 0; c < 4; ++c) {
-      for (int i = 0; i < N; ++i) set_lane(components[c], i, sample(i)[c]);
-    }
-  } else {
-    float columns[4][N];
-    for (int i = 0; i < N; i += 4) {
-      Float<4> rows[4];
-      for (int k = 0; k < 4; ++k) rows[k] = load<4>(sample(i + k));
-      transpose<4>(rows);
-      for (int c = 0; c < 4; ++c) store<4>(columns[c] + i, rows[c]);
-    }
-    for (int c = 0; c < 4; ++c) components[c] = load<N>(columns[c]);
-  }
+  std::uint32_t indices[N];
+  for (int i = 0; i < N; ++i)
+    indices[i] = static_cast<std::uint32_t>(stride) * static_cast<std::uint32_t>(i);
+  load_rows<N>(samples, indices, components);
 }
 
 /// Adds a term to the sums of N pixels.

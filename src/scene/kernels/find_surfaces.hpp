@@ -26,7 +26,7 @@ inline Doubles3<N> gathered_vectors(const Get& get) {
         const Vec3* const v = get(4 * group + k);
         m[group][k] = Float<4>{v->x, v->y, v->z, 0};
       }
-      transpose(m[group]);
+      transpose<4>(m[group]);
     }
     const auto column = [&](int axis) {
       if constexpr (N == 4)

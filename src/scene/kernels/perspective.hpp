@@ -58,8 +58,8 @@ inline void store_rays(const Vec3& o, const LaneRays<N>& lanes, Ray* rays, std::
       Float<4> first[4] = {all<4>(o.x), all<4>(o.y), all<4>(o.z), load<4>(t_min + i)};
       Float<4> second[4] = {load<4>(d[0] + i), load<4>(d[1] + i), load<4>(d[2] + i),
                             load<4>(t_max + i)};
-      transpose(first);
-      transpose(second);
+      transpose<4>(first);
+      transpose<4>(second);
       static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, d) == 4 * sizeof(float));
       for (std::size_t k = 0; k < 4; ++k) {
         __builtin_memcpy(&rays[i + k].o, &first[k], sizeof first[k]);

@@ -25,16 +25,47 @@ constexpr DeficitByRow by_row(const DeficitTable& table) {
   return result;
 }
 
+/// Four entries that are loaded at once.
+struct alignas(16) Quad {
+  std::array<float, 4> values{};
+};
+
+/// The entries at the corners of each cell of a table: in row j, those of the columns i and i + 1,
+/// then those in row j + 1.
+template <std::size_t rows, std::size_t columns>
+constexpr auto cells_of(const std::array<std::array<float, columns>, rows>& table) {
+  std::array<std::array<Quad, columns - 1>, rows - 1> cells{};
+  for (std::size_t j = 0; j + 1 < rows; ++j) {
+    for (std::size_t i = 0; i + 1 < columns; ++i)
+      cells[j][i].values = {table[j][i], table[j][i + 1], table[j + 1][i], table[j + 1][i + 1]};
+  }
+  return cells;
+}
+
+constexpr auto mean_albedos_of_pairs() {
+  std::array<Quad, kAlbedoSteps - 1> pairs{};
+  for (std::size_t j = 0; j < pairs.size(); ++j) {
+    pairs[j].values = {kMeanAlbedoF1[j], kMeanAlbedoF1[j + 1], kMeanAlbedoSchlick[j],
+                       kMeanAlbedoSchlick[j + 1]};
+  }
+  return pairs;
+}
+
+constexpr auto kAlbedoF1Cells = cells_of(kAlbedoF1);
+constexpr auto kAlbedoSchlickCells = cells_of(kAlbedoSchlick);
+constexpr auto kMeanAlbedos = mean_albedos_of_pairs();
+constexpr auto kRawSheenCells = cells_of(kRawSheenAlbedo);
+constexpr auto kSheenCells = cells_of(kSheenAlbedo);
+
 constexpr DeficitByRow kDeficitF1ByRow = by_row(kDeficitF1);
 constexpr DeficitByRow kDeficitSchlickByRow = by_row(kDeficitSchlick);
 
 }  // namespace
 
 constinit const Tables kTables{
-    .albedo_f1 = kAlbedoF1[0].data(),
-    .albedo_schlick = kAlbedoSchlick[0].data(),
-    .mean_albedo_f1 = kMeanAlbedoF1.data(),
-    .mean_albedo_schlick = kMeanAlbedoSchlick.data(),
+    .albedo_f1 = kAlbedoF1Cells[0][0].values.data(),
+    .albedo_schlick = kAlbedoSchlickCells[0][0].values.data(),
+    .mean_albedos = kMeanAlbedos[0].values.data(),
     .anisotropic_loss = kAnisotropicLoss[0][0][0].data(),
     .anisotropic_schlick = kAnisotropicSchlick[0][0][0].data(),
     .mean_anisotropic_loss = kMeanAnisotropicLoss[0].data(),
@@ -45,8 +76,8 @@ constinit const Tables kTables{
     .deficit_schlick = kDeficitSchlickByRow[0][0].values.data(),
     .loss_from_outside = kLossFromOutside[0][0].data(),
     .loss_from_within = kLossFromWithin[0][0].data(),
-    .raw_sheen_albedo = kRawSheenAlbedo[0].data(),
-    .sheen_albedo = kSheenAlbedo[0].data(),
+    .raw_sheen_albedo = kRawSheenCells[0][0].values.data(),
+    .sheen_albedo = kSheenCells[0][0].values.data(),
 };
 
 }  // namespace microtrace::bsdf

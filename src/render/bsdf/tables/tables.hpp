@@ -15,8 +15,9 @@ namespace microtrace::bsdf {
 inline constexpr int kPaddedRows = 16;
 
 struct Tables {
-  // GGX: rows of kAlbedoSteps entries, and the rows' means.
-  const float *albedo_f1, *albedo_schlick, *mean_albedo_f1, *mean_albedo_schlick;
+  // GGX: the cells of tables with kAlbedoSteps rows and columns. For each pair of rows, their means
+  // for F = 1, then those for Schlick's term.
+  const float *albedo_f1, *albedo_schlick, *mean_albedos;
   // Anisotropic GGX: polynomial coefficients.
   const float *anisotropic_loss, *anisotropic_schlick;
   const float *mean_anisotropic_loss, *mean_anisotropic_schlick;
@@ -26,7 +27,7 @@ struct Tables {
   const float *deficit_f1, *deficit_schlick;
   // Refraction: for each index of refraction, kLossRows rows of kLossColumns entries.
   const std::int16_t *loss_from_outside, *loss_from_within;
-  // Sheen: rows of kSheenColumns entries.
+  // Sheen: the cells of tables with kSheenColumns columns.
   const float *raw_sheen_albedo, *sheen_albedo;
 };
 
