@@ -85,6 +85,21 @@ TEST(Bsdf, NoSampleOfDarkSurfacesHasALargeWeight) {
   }
 }
 
+TEST(Bsdf, SamplesOfMatteSurfacesHaveEqualWeights) {
+  const Vec3 color(0.9F, 0.5F, 0.1F);
+  for (const float roughness : {0.1F, 1.0F}) {
+    const Scattering bsdf(
+        {.base_color = color, .roughness = roughness, .dielectric = {Vec3(0), 0.0F}},
+        direction(0.7));
+    for (std::uint32_t k = 0; k < 1U << 10U; ++k) {
+      const sampling::Sobol sobol(7, k);
+      const auto s = bsdf.sample(sobol.pair(0), sobol.one(1));
+      ASSERT_TRUE(s.has_value());
+      for (int c = 0; c < 3; ++c) ASSERT_NEAR(s->weight[c], color[c], 1e-6);
+    }
+  }
+}
+
 TEST(Bsdf, WhiteDielectricConservesEnergy) {
   for (const float roughness : {0.1F, 0.4F, 0.7F, 1.0F}) {
     for (const double theta : {0.0, 0.6, 1.2, 1.5}) {

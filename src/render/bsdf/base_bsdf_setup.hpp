@@ -68,8 +68,10 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   }
   const F rarest = spread > (kIsPlain ? 0.01F : 0.002F) ? all<N>(0.1F)
                                                         : smaller_of(F(10 * spread), all<N>(0.02F));
-  const F share = clamped(F(facets / (facets + spread)), all<N>(0.1F), F(1 - rarest));
-  facet_probability_ = spread > 0 ? share : all<N>(1);
+  const F share = clamped(F(facets / (facets + spread)), all<N>(0.05F), F(1 - rarest));
+  auto is_matte = is_zero(f0) & (specular_.f90 == 0);
+  if (features_.transmits) is_matte = is_matte & is_zero(transmitted_);
+  facet_probability_ = is_matte ? F{} : spread > 0 ? share : all<N>(1);
 }
 
 template <int N, class Parts>

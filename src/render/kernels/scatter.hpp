@@ -2,6 +2,7 @@
 /// Computes direct light and samples the next direction.
 
 #include "render/bsdf/bsdf.hpp"
+#include "render/bsdf/matte_bsdf.hpp"
 #include "render/integrators/power_heuristic.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/kernels/random_pairs.hpp"
@@ -145,9 +146,19 @@ void scatter_all(const typename Parts::FeaturesType& features, const ScatterSetu
 }
 
 template <int N>
+void scatter_plain(const ScatterSetup& setup, ScatterLanes& lanes) {
+  for (int i = 0; i < kShadingLanes; i += N) {
+    if (bsdf::are_matte<N>(lanes.surface, i))
+      Vertices<N, bsdf::MatteParts<N>>({}, lanes, i).scatter(setup);
+    else
+      Vertices<N, bsdf::PlainParts<N>>({}, lanes, i).scatter(setup);
+  }
+}
+
+template <int N>
 void scatter(const ScatterSetup& setup, ScatterLanes& lanes) {
   if (setup.features.index() == 0 && !setup.features.is_spec)
-    scatter_all<N, bsdf::PlainParts<N>>({}, setup, lanes);
+    scatter_plain<N>(setup, lanes);
   else if (setup.features.is_anisotropic)
     scatter_all<N, bsdf::AnisotropicParts<N>>(setup.features, setup, lanes);
   else
