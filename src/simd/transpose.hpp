@@ -28,8 +28,8 @@ inline void exchange_blocks(Float<N>& a, Float<N>& b,
   b = lower;
 }
 
-/// Transposes the kSize x kSize matrices that lie side by side in kSize rows of N lanes, first their
-/// blocks of size kStep, then the contents of the blocks.
+/// Transposes the kSize x kSize matrices that lie side by side in kSize rows of N lanes, first
+/// their blocks of size kStep, then the contents of the blocks.
 template <int N, int kSize, int kStep = kSize / 2>
 inline void transpose(Float<N> (&m)[kSize]) {
   if constexpr (kStep > 0) {
