@@ -1,5 +1,6 @@
 #include "cli/arguments.hpp"
 
+#include "cli/options/applicable.hpp"
 #include "cli/report/counted.hpp"
 
 #include <microtrace/aov.hpp>
@@ -13,33 +14,21 @@ namespace microtrace::cli {
 namespace {
 
 /// Applies --quality to options that are not given.
-void apply_quality(SamplingOptions& sampling, bool is_path) {
+void apply_quality(SamplingOptions& sampling) {
   if (sampling.quality == nullptr) return;
-  if (!is_path) refuse_usage("--quality needs path tracing; use --integrator path");
   if (sampling.samples == 0) sampling.samples = sampling.quality->samples;
   if (sampling.target_error == 0 && !sampling.shard)
     sampling.target_error = sampling.quality->target_error;
 }
 
 void check_sampling(const SamplingOptions& sampling, bool is_path) {
-  if (sampling.needs_passes() && !is_path) {
-    refuse_usage(
-        "checkpoints, --progressive, --target-error and --time-limit need path tracing; use "
-        "--integrator path");
-  }
+  if (sampling.uses_files() && !is_path)
+    refuse_usage("checkpoints and --progressive need path tracing; use --integrator path");
   if (sampling.shard && sampling.shard->count > sampling.samples) {
     refuse_usage("--shard: " + counted(sampling.samples, "sample") +
                  " (--spp) can't be divided into " + std::to_string(sampling.shard->count) +
                  " shards");
   }
-}
-
-/// Refuses samples of quantities, which can't be averaged.
-void check_quantity(const Arguments& a) {
-  const auto* quantity = std::get_if<Aov>(&*a.integrator);
-  if (quantity == nullptr || a.sampling.samples <= 1) return;
-  refuse_usage("--spp: --integrator " + std::string(name_of(*quantity)) +
-               " shows a quantity, which can't be averaged; omit --spp");
 }
 
 void check_shutter(const Arguments& a) {
@@ -70,29 +59,17 @@ std::optional<SampleRange> SamplingOptions::range() const {
   return SampleRange{.first = bound(shard->index - 1), .last = bound(shard->index)};
 }
 
-void apply_defaults(Arguments& a, SceneFormat format) {
+void choose_integrator(Arguments& a, SceneFormat format) {
   if (!a.integrator) a.integrator = default_integrator(format);
+}
+
+void apply_defaults(Arguments& a, SceneFormat format) {
+  choose_integrator(a, format);
   if (a.is_path_traced()) a.integrator = a.path;
-  if (a.environment.shows_environment() && !a.is_path_traced())
-    refuse_usage("--background: env needs path tracing; use --integrator path");
-  if (!a.aovs.sampled.empty() && !a.is_path_traced()) {
-    refuse_usage("--aov: " + std::string(name_of(a.aovs.sampled.front())) +
-                 " needs path tracing; use --integrator path");
-  }
-  if (a.path.ground && !a.is_path_traced())
-    refuse_usage("--ground needs path tracing, which casts shadows; use --integrator path");
-  if (a.path.guiding && !a.is_path_traced())
-    refuse_usage("--guiding needs path tracing; use --integrator path");
-  if (a.path.bsdf == BsdfModel::spec && !a.is_path_traced())
-    refuse_usage("--bsdf needs path tracing; use --integrator path");
-  if (a.denoises && !a.is_path_traced())
-    refuse_usage(
-        "--denoise needs path tracing, because other pictures have no noise; use "
-        "--integrator path");
-  apply_quality(a.sampling, a.is_path_traced());
+  check_applicable(a);
+  apply_quality(a.sampling);
   if (a.sampling.samples == 0) a.sampling.samples = default_samples(*a.integrator);
   check_sampling(a.sampling, a.is_path_traced());
-  check_quantity(a);
   check_shutter(a);
   if (!a.display.exposure && a.display.automatic == AutomaticExposure::never &&
       format == SceneFormat::gltf && a.is_path_traced())

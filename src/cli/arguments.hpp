@@ -157,7 +157,7 @@ struct Arguments {
   DisplayOptions display{};
   bool denoises = false;
   SamplingOptions sampling{};
-  /// Absent until apply_defaults() unless --integrator is given.
+  /// Absent until choose_integrator() unless --integrator is given.
   std::optional<IntegratorOptions> integrator{};
   PathOptions path{};  ///< options of the path integrator
   Channels aovs{};
@@ -178,7 +178,7 @@ struct Arguments {
   /// The options on which samples depend, in the form of Checkpoint::identity.
   std::string identity{};
 
-  /// Requires apply_defaults().
+  /// Requires choose_integrator().
   [[nodiscard]] bool is_path_traced() const {
     return std::holds_alternative<PathOptions>(*integrator);
   }
@@ -199,6 +199,9 @@ struct Arguments {
   // For the command view only:
   ViewOptions view{};
 };
+
+/// Sets the integrator to the library's default for scenes of this format if it is absent.
+void choose_integrator(Arguments& arguments, SceneFormat format);
 
 /// Sets options that are absent to the library's defaults for scenes of this format. Throws Error
 /// (usage) if given options contradict these defaults.

@@ -232,8 +232,6 @@ class PageTest(unittest.TestCase):
             self.assert_shows(page, scene)
         self.change(page, lambda: page.fill("[data-option='--background']", "") or page.locator("[data-option='--background']").blur())
         for name in ("flat", "depth", "normal", "uv", "id", "albedo", "variance"):
-            if name == "flat":  # a single sample suits all exact quantities
-                self.change(page, lambda: page.fill("#spp", "") or page.locator("#spp").blur())
             self.change(page, lambda name=name: page.select_option("#integrator", name))
             if name == "variance":
                 self.assertIn("--aov variance", " ".join(self.words(page)))
@@ -244,6 +242,30 @@ class PageTest(unittest.TestCase):
                 self.assertTrue((self.folder / "materials.exr").exists())
             else:
                 self.assert_shows(page, scene)
+
+    def test_options_that_a_quantity_cannot_apply(self):
+        scene = SCENES / "gltf/materials.glb"
+        page = self.open(self.viewer(scene, "--size", "80x60", "--spp", "4", "--bsdf", "spec"))
+        self.assertEqual(self.words(page), ["--size", "80x60", "--spp", "4", "--bsdf", "spec"])
+        self.change(page, lambda: page.select_option("#integrator", "depth"))
+        self.assertIn(", without --bsdf, --spp", page.inner_text("#status"))
+        self.assertEqual(self.words(page), ["--size", "80x60", "--integrator", "depth"])
+        self.assert_shows(page, scene)
+        # The options are back when they apply again.
+        self.change(page, lambda: page.select_option("#integrator", "path"))
+        self.assertNotIn("without", page.inner_text("#status"))
+        self.assertEqual(self.words(page), ["--size", "80x60", "--spp", "4", "--bsdf", "spec", "--integrator", "path"])
+        self.assert_shows(page, scene)
+
+    def test_warning_about_the_ground(self):
+        scene = self.folder / "planes.json"
+        scene.write_text('{"version": 1, "objects": [{"type": "plane", "point": [0, -1, 0], "normal": [0, 1, 0]}]}')
+        page = self.open(self.viewer(scene, "--size", "16x16", "--integrator", "path", "--spp", "1"))
+        self.assertFalse(page.is_visible("#warnings-section"))
+        self.change(page, lambda: page.check("[data-option='--ground']"))
+        self.assertIn("no lowest point for --ground", page.inner_text("#warnings"))
+        self.change(page, lambda: page.uncheck("[data-option='--ground']"))
+        self.assertFalse(page.is_visible("#warnings-section"))
 
     def test_animation(self):
         scene = SCENES / "gltf/moving.glb"

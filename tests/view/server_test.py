@@ -334,6 +334,36 @@ class Pictures(unittest.TestCase):
                 self.assertEqual(last.headers["Content-Type"], "image/png", last.body)
                 self.assertEqual(read_png(last.body), read_png(expected))
 
+    def test_options_that_a_quantity_cannot_apply_are_omitted(self):
+        scene = SCENES / "gltf/materials.glb"
+        given = ["--ground", "--guiding", "--bsdf", "spec", "--denoise", "--quality", "draft", "--target-error", "0.5",
+                 "--time-limit", "9", "--spp", "4", "--background", "env", "--aov", "variance"]
+        kept = ["--size", "64x48", "--env", "studio", "--max-depth", "3"]
+        quantity, flat = ["--integrator", "depth"], ["--integrator", "flat"]
+        with Viewer(PROGRAM, scene, *kept, *given[:5], *quantity) as viewer:
+            words = [*kept, *given, *quantity]
+            last = viewer.draw(words)[-1]
+            self.assertEqual(last.headers["Content-Type"], "image/png", last.body)
+            self.assertEqual(sorted(last.picture["omitted"]), sorted(word for word in given if word.startswith("--")))
+            expected = self.program_picture(scene, [*kept, *quantity])
+            self.assertEqual(read_png(last.body), read_png(expected))
+            self.assertEqual(viewer.request("POST", "file?format=png", "\n".join(words)).body, expected)
+            # Colors without light are averaged, and pictures of light omit nothing.
+            spp = ["--size", "64x48", "--spp", "4"]
+            self.assertEqual(viewer.draw([*spp, *flat])[-1].picture["omitted"], [])
+            self.assertEqual(viewer.draw([*spp, "--bsdf", "spec", "--quality", "draft"])[-1].picture["omitted"], [])
+            self.assertEqual(viewer.draw([*spp, "--bsdf", "spec", *flat])[-1].picture["omitted"], ["--bsdf"])
+
+    def test_ground_without_a_lowest_point(self):
+        scene = self.folder / "planes.json"
+        scene.write_text('{"version": 1, "objects": [{"type": "plane", "point": [0, -1, 0], "normal": [0, 1, 0]}]}')
+        warning = "no object is bounded, so the scene has no lowest point for --ground; give a height, as in --ground=0"
+        words = ["--size", "8x8", "--integrator", "path", "--spp", "1"]
+        with Viewer(PROGRAM, scene, *words) as viewer:
+            self.assertEqual(viewer.draw([*words, "--ground"])[-1].picture["warning"], warning)
+            for options in ([], ["--ground=0"]):
+                self.assertNotIn("warning", viewer.draw([*words, *options])[-1].picture)
+
     def test_exr_with_channels(self):
         words = [*SMALL, "--aov", "depth,id"]
         with Viewer(PROGRAM, SCENES / "gltf/cube.glb") as viewer:

@@ -1,9 +1,11 @@
 #include "cli/view/picture_job.hpp"
 
+#include "cli/options/applicable.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/exposure.hpp"
+#include "cli/report/warnings.hpp"
 
 #include <microtrace/defaults.hpp>
 #include <microtrace/threads.hpp>
@@ -32,6 +34,8 @@ PictureJob make_job(SceneSource& source, Arguments arguments) {
   std::shared_ptr<const ShownScene> shown_scene = source.get(arguments.load);
   PictureJob job{.scene = std::move(shown_scene),
                  .arguments = std::move(arguments),
+                 .omitted = {},
+                 .warning = {},
                  .size = {},
                  .camera = {},
                  .integrator = nullptr,
@@ -39,8 +43,11 @@ PictureJob make_job(SceneSource& source, Arguments arguments) {
                  .denoiser = {},
                  .display = {}};
   Arguments& a = job.arguments;
+  choose_integrator(a, job.scene->format);
+  job.omitted = omit_inapplicable(a);
   apply_defaults(a, job.scene->format);
   const Scene& scene = job.scene->prepared.scene();
+  job.warning = ground_warning(a, scene);
   job.size = a.size.value_or(scene.size);
   job.camera = choose_camera(scene, a.camera, job.size);
   job.integrator = make_integrator(*a.integrator);

@@ -6,6 +6,7 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/denoise.hpp>
+#include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/render.hpp>
@@ -13,6 +14,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace microtrace::cli {
 
@@ -24,6 +27,10 @@ namespace microtrace::cli {
 struct PictureJob {
   std::shared_ptr<const ShownScene> scene;
   Arguments arguments;  ///< with the defaults of the scene's format
+  /// The names of given options that the integrator can't apply. The page keeps them for pictures
+  /// of other integrators.
+  std::vector<std::string_view> omitted;
+  std::optional<Diagnostic> warning;  ///< about the options
   ImageSize size;
   Camera camera;  ///< in scene coordinates
   std::unique_ptr<Integrator> integrator;

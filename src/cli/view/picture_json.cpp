@@ -83,6 +83,8 @@ std::string json_of(const PictureDescription& description, const PictureJob& job
   json["height"] = part.size().height;
   json["integrator"] = job.arguments.is_path_traced() ? "path" : "exact";
   json["camera"] = camera_json(job);
+  json["omitted"] = job.omitted;
+  if (job.warning) json["warning"] = job.warning->message;
   return text_of(json, true);
 }
 

@@ -7,8 +7,8 @@ const byId = (id) => document.getElementById(id);
 function warningItem({ pointer, line, column, message }) {
   const item = document.createElement("li");
   const place = document.createElement("code");
-  place.textContent = pointer || `${line}:${column}`;
-  item.append(place, ` ${message}`);
+  place.textContent = pointer || (line === undefined ? "" : `${line}:${column}`);
+  item.append(...(place.textContent === "" ? [message] : [place, ` ${message}`]));
   return item;
 }
 
@@ -26,8 +26,14 @@ function showScene(scene) {
   fill(byId("animation"), animations.length > 1 ? [...animations, ["all", "all"]] : animations, "none");
   byId("variant-section").hidden = scene.variants.length === 0;
   byId("animation-section").hidden = scene.animations.length === 0;
-  byId("warnings-section").hidden = scene.warnings.length === 0;
-  byId("warnings").replaceChildren(...scene.warnings.map(warningItem));
+}
+
+/** Shows the warnings about the scene and about the options of its picture. */
+export function showWarnings({ scene, status }) {
+  const items = scene.warnings.map(warningItem);
+  if (status?.warning) items.push(warningItem({ message: status.warning }));
+  byId("warnings-section").hidden = items.length === 0;
+  byId("warnings").replaceChildren(...items);
 }
 
 /** Returns the number of the list's entry that `text` names, or else the text, which may be a number. */
@@ -64,14 +70,16 @@ function showVariant({ variants }, options) {
   byId("variant").value = numberOf(variants, options.get("--variant") ?? "");
 }
 
-export function showCommand({ scene, options }) {
-  byId("command").textContent = commandLine(scene.name, options);
+/** Shows the command line that draws the picture, without the options that its integrator can't apply. */
+export function showCommand({ scene, options, status }) {
+  byId("command").textContent = commandLine(scene.name, options.without(status?.omitted ?? []));
 }
 
 /** Shows the options of the side with this index, and first of all its scene if the controls show another one. */
 export function showControls(side, index, isOther) {
   const { scene, options } = side;
   if (isOther) showScene(scene);
+  showWarnings(side);
   showOptions(options);
   // The variance is a channel beside the colors, not a method of rendering.
   if (options.get("--aov") === "variance") byId("integrator").value = "variance";

@@ -42,6 +42,13 @@ export class Options {
   copy() {
     return new Options(this.words);
   }
+
+  /** Returns a copy without the options of these names. */
+  without(names) {
+    const others = this.copy();
+    for (const name of names) others.set(name, "");
+    return others;
+  }
 }
 
 /** Quotes a word for a shell if necessary. */

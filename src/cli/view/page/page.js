@@ -2,7 +2,7 @@
 
 import { FreeCamera } from "./camera.js";
 import { Comparison } from "./compare.js";
-import { showCommand, showControls } from "./controls.js";
+import { showCommand, showControls, showWarnings } from "./controls.js";
 import { Options } from "./options.js";
 import { Explanation } from "./pixel.js";
 import { addressOf, send, sendForJson } from "./server.js";
@@ -61,7 +61,11 @@ export class Page {
   /** Called when a side shows another picture, or an error. */
   shown(side) {
     this.#showState();
-    if (side === this.side) this.#showStatus();
+    if (side === this.side) {
+      this.#showStatus();
+      showCommand(side);
+      showWarnings(side);
+    }
     if (side.error === "") this.showComparison();
   }
 
@@ -82,9 +86,10 @@ export class Page {
       byId("status").textContent = hasPicture ? "The last picture is shown" : "No picture";
       return;
     }
-    const { samples, of, seconds, camera, width, height, done } = status;
+    const { samples, of, seconds, camera, width, height, done, omitted } = status;
     const progress = done ? `${samples} ${samples === 1 ? "sample" : "samples"}, ${seconds.toFixed(2)} s` : `${status.preview ? 0 : samples} of ${of} samples`;
-    byId("status").textContent = `${width} x ${height}, ${progress}`;
+    const without = omitted.length > 0 ? `, without ${omitted.join(", ")}` : "";
+    byId("status").textContent = `${width} x ${height}, ${progress}${without}`;
     byId("progress").value = done ? 1 : samples / of;
     canvas.classList.toggle("small", canvas.width < stage.clientWidth / 2);
     if (camera.fov !== undefined) {

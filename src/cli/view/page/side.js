@@ -79,7 +79,7 @@ export class Side {
 
   #fail(text, status) {
     if (this.status !== null && status.request < this.status.request) return;
-    this.#note({ ...this.status, ...status, done: true }, text);
+    this.#note({ ...this.status, omitted: [], warning: undefined, ...status, done: true }, text);
   }
 
   #note(status, error) {
