@@ -57,7 +57,8 @@ class Completion(ProgramTest):
         self.assertEqual(self.complete_in_bash("microtrace", "--env", "s") & {"studio"}, {"studio"})
 
     def test_values_after_an_equals_sign_in_bash(self):
-        (self.folder / "notes.txt").write_text("")
+        for name in ("notes.txt", "scene.json"):
+            (self.folder / name).write_text("")
         # By default, bash divides words at equals signs. If COMP_WORDBREAKS lacks them, it doesn't.
         for option, start, values in [("--tonemap", "a", {"aces", "agx"}), ("--stats", "", {"text", "json"}), ("--ground", "", {"lowest"}),
                                       ("--output", "n", {"notes.txt"}), ("--size", "", set()), ("--quiet", "", set())]:

@@ -91,12 +91,13 @@ bool has_value(const Option& option) {
 }
 
 /// Returns bash's patterns for what precedes the value of an option: `prefix` and "--size", or
-/// "--size=" if the value is a part of the same word.
+/// "--size=" if the value is a part of the same word. A switch has the latter too, so that no value
+/// is offered.
 std::vector<std::string> bash_patterns(const std::string& prefix, const Option& option) {
   std::vector<std::string> patterns;
   for (const std::string& name : names_of(option)) {
     if (has_value(option)) patterns.push_back(prefix + name);
-    if (!option.is_switch() && name.starts_with("--")) patterns.push_back(prefix + name + "=");
+    if (name.starts_with("--")) patterns.push_back(prefix + name + "=");
   }
   return patterns;
 }

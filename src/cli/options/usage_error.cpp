@@ -2,12 +2,14 @@
 
 #include "base/nearest_name.hpp"
 #include "base/printable.hpp"
+#include "cli/arguments.hpp"
 #include "cli/options/help.hpp"
 
 #include <microtrace/error.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -41,8 +43,19 @@ std::string unknown_option(Command command, std::string_view argument) {
   return message;
 }
 
+/// Returns true if the option takes this value.
+bool accepts(const Option& option, const std::string& value) {
+  try {
+    Arguments arguments;
+    option.set(arguments, {.option = std::string(option.name()), .text = value});
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 /// Returns the message for a word that is neither an option nor its value. It may be meant as the
-/// value of an option whose value may be omitted.
+/// value of an option whose value may be omitted, or as the file to write.
 std::string unexpected_argument(Command command, const CLI::App& app, const std::string& word) {
   std::string message = "unexpected argument " + in_quotes(word);
   for (const OptionGroup& group : option_groups(command)) {
@@ -50,11 +63,16 @@ std::string unexpected_argument(Command command, const CLI::App& app, const std:
       if (option.implied_value.empty()) continue;
       const std::string name(option.name());
       const std::vector<std::string>& given = app.get_option(name)->results();
-      if (given.empty() || given.back() != option.implied_value) continue;
+      if (given.empty() || given.back() != option.implied_value || !accepts(option, word)) continue;
       message.append("; the value of ").append(name).append(" follows =, as in ").append(name);
-      return message.append("=").append(option.metavar);
+      return message.append("=").append(printable(word));
     }
   }
+  const std::filesystem::path extension = std::filesystem::path(word).extension();
+  const bool is_scene = extension == ".json" || extension == ".gltf" || extension == ".glb";
+  const CLI::Option* output = app.get_option_no_throw("--output");
+  if (output != nullptr && output->count() == 0 && !extension.empty() && !is_scene)
+    message.append("; did you mean --output ").append(printable(word)).append("?");
   return message;
 }
 
