@@ -42,6 +42,11 @@ enum class MaterialTexture {
   return texture != occlusion && texture != thickness;
 }
 
+/// True if the surface may emit light, unless its texture is black. Unlit surfaces light nothing.
+[[nodiscard]] inline bool is_emissive(const Material& material) {
+  return material.emissive != Vec3(0) && !material.unlit;
+}
+
 /// Calls visit(MaterialTexture, TextureUse&, ColorEncoding) for each texture that the material has.
 /// The reference is const if the material is.
 template <typename AnyMaterial, typename Visit>

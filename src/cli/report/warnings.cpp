@@ -2,6 +2,7 @@
 
 #include "cli/pictures/camera.hpp"
 #include "cli/report/validation_result.hpp"
+#include "scene/material_textures.hpp"
 #include "scene/support.hpp"
 
 #include <algorithm>
@@ -39,10 +40,8 @@ bool is_dark(const Environment& environment) {
 }
 
 bool has_emissive_surfaces(const Scene& scene) {
-  return std::ranges::any_of(scene.objects, [&](const Object& object) {
-    const Material& material = material_of(scene, object);
-    return material.emissive != Vec3(0) && !material.unlit;
-  });
+  return std::ranges::any_of(
+      scene.objects, [&](const Object& object) { return is_emissive(material_of(scene, object)); });
 }
 
 /// Returns the exposure in stops that raises this value to at least 1/2.

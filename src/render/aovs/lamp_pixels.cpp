@@ -1,5 +1,6 @@
 #include "render/aovs/lamp_pixels.hpp"
 
+#include "scene/material_textures.hpp"
 #include "scene/support.hpp"
 #include "scene/translation_to_origin.hpp"
 
@@ -24,7 +25,7 @@ constexpr Part kEverywhere{.low = DVec2(-std::numeric_limits<double>::infinity()
 /// Surfaces with a texture are left out, since they are often models with few luminous parts, which
 /// would take too much time.
 bool is_lamp(const Material& material) {
-  return material.emissive != Vec3(0) && !material.emissive_texture && !material.unlit;
+  return is_emissive(material) && !material.emissive_texture;
 }
 
 /// Returns a part that contains the projection of the shape. The camera must be a pinhole with a

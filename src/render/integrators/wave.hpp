@@ -117,7 +117,7 @@ class Wave {
   /// from behind it.
   [[nodiscard]] bool may_get_light(std::size_t i) const {
     return !knows_blocked() || blockers_[i] == kNoPrimitive || !shading_->is_opaque(blockers_[i]) ||
-           shading_->shines(blockers_[i]);
+           shading_->is_emissive(blockers_[i]);
   }
   /// True if path i has its maximum length.
   [[nodiscard]] bool is_last(std::size_t i) const {

@@ -59,7 +59,7 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
       if (!hit) return {.is_open = is_sky_lit()};
     } while (!stops(i, point, layer));
   }
-  if (!point.look->shines() || emission(i, point) == Vec3(0)) return {};
+  if (!point.look->is_emissive() || emission(i, point) == Vec3(0)) return {};
   return {.hit = hit, .point = point};
 }
 

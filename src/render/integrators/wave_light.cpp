@@ -14,7 +14,7 @@
 namespace microtrace {
 
 Vec3 Wave::emission(std::size_t i, const ShadingPoint& point) const {
-  if (!point.look->shines() && !point.look->material->unlit) return Vec3(0);
+  if (!point.look->is_emissive() && !point.look->material->unlit) return Vec3(0);
   return shading_->emission(paths_->pdf[i] == 0 ? point : point.unfiltered());
 }
 

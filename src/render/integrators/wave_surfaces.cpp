@@ -89,7 +89,7 @@ Lanes Wave::add_simple(std::size_t first) {
       continue;
     const Lanes bit = Lanes{1} << lane;
     if (is_last(first + k)) {
-      if (step_.depth > 1 && look.is_opaque && !look.shines()) ended |= bit;
+      if (step_.depth > 1 && look.is_opaque && !look.is_emissive()) ended |= bit;
       continue;
     }
     simple |= bit;
@@ -127,7 +127,7 @@ Lanes Wave::add_varying(Lanes lanes) {
     const Vec4 color =
         vertex_color(mesh, group.hits.corners[k], got(group.hits.lanes.weights, lane));
     const Vec4 base_color = material.base_color * color * texels_.base_color[k];
-    if ((look.shines() && Vec3(texels_.emissive[k]) * material.emissive != Vec3(0)) ||
+    if ((look.is_emissive() && Vec3(texels_.emissive[k]) * material.emissive != Vec3(0)) ||
         Shading::coverage(material, base_color.w) != 1) {
       lanes &= ~(Lanes{1} << lane);
       continue;

@@ -6,6 +6,7 @@
 #include "render/lights/punctual.hpp"
 #include "render/luminance.hpp"
 #include "render/sampling/warps.hpp"
+#include "scene/material_textures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +42,7 @@ void Emitters::add_surfaces(std::vector<LightBounds>& bounds) {
   PrimitiveId id = 0;
   for (const Object& object : scene_.objects) {
     const auto count = static_cast<PrimitiveId>(primitive_count(object.shape));
-    const Material& material = material_of(scene_, object);
-    if (material.emissive != Vec3(0) && !material.unlit) {
+    if (is_emissive(material_of(scene_, object))) {
       take_memory_for_emitters(count);
       if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
         for (PrimitiveId i = 0; i < count; ++i) add_triangle(id + i, triangle_of(*mesh, i), bounds);

@@ -21,11 +21,11 @@ void look_up_unfiltered(const HitGroup& group, int lane, FrequentTexels& texels)
   const TextureMap* base_color = look[MaterialTexture::base_color].map;
   const TextureMap* emissive = look[MaterialTexture::emissive].map;
   const bool has_alpha = base_color != nullptr && look.material->alpha_mode != AlphaMode::opaque;
-  const bool shines = emissive != nullptr && look.shines();
-  if (!has_alpha && !shines) return;
+  const bool is_emissive = emissive != nullptr && look.is_emissive();
+  if (!has_alpha && !is_emissive) return;
   const TextureMap::TexelAddress address = layout_address(group, lane, 0);
   if (has_alpha) texels.base_color[i].w = base_color->sample(address).w;
-  if (shines) texels.emissive[i] = emissive->sample(address);
+  if (is_emissive) texels.emissive[i] = emissive->sample(address);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     look.has_constant_emission = look[MaterialTexture::emissive].map == nullptr &&
                                  material.alpha_mode == AlphaMode::opaque && !material.unlit;
     const bool may_have_open_back =
-        !has_back(material) && !look.shines() && !material.diffuse_transmission;
+        !has_back(material) && !look.is_emissive() && !material.diffuse_transmission;
     look.has_open_back = may_have_open_back && !transmits(material);
     look.has_open_opaque_parts =
         may_have_open_back && transmits(material) && has_map(look[MaterialTexture::transmission]);
@@ -88,7 +88,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     white.slots = {};
     const ShadingPoint anywhere{.at = {}, .look = &white};
     look.constant_but_textures.emplace(parameters(anywhere, 3, nullptr), layers(anywhere));
-    const bool may_be_dark = !look.shines() || look[MaterialTexture::emissive].map != nullptr;
+    const bool may_be_dark = !look.is_emissive() || look[MaterialTexture::emissive].map != nullptr;
     look.is_simple = !material.unlit && may_be_dark && !material.specular_glossiness;
     look.varies = look.is_textured || material.alpha_mode != AlphaMode::opaque;
   };

@@ -98,7 +98,7 @@ struct TexturedMaterial {
   /// Prefetches the texels of all slots with shares_address.
   void fetch(const TextureMap::TexelAddress& address) const;
 
-  [[nodiscard]] bool shines() const { return material->emissive != Vec3(0) && !material->unlit; }
+  [[nodiscard]] bool is_emissive() const { return microtrace::is_emissive(*material); }
 };
 
 /// A shading point, its material, and the width of its footprint.
@@ -199,12 +199,12 @@ class Shading {
     return all_cover_ || looks_[entries_[primitives_.object_index(id)].look].is_opaque;
   }
   /// True if the primitive may be emissive.
-  [[nodiscard]] bool shines(PrimitiveId id) const {
-    return looks_[entries_[primitives_.object_index(id)].look].shines();
+  [[nodiscard]] bool is_emissive(PrimitiveId id) const {
+    return looks_[entries_[primitives_.object_index(id)].look].is_emissive();
   }
   /// True if both primitives are of one object, whose material may be emissive.
   [[nodiscard]] bool is_same_emitter(PrimitiveId a, PrimitiveId b) const {
-    return primitives_.object_index(a) == primitives_.object_index(b) && shines(a);
+    return primitives_.object_index(a) == primitives_.object_index(b) && is_emissive(a);
   }
   [[nodiscard]] bool is_open_front(PrimitiveId id) const {
     return (open_fronts_[id / 32] >> id % 32 & 1U) != 0;
