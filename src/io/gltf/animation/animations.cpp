@@ -3,6 +3,7 @@
 #include "base/printable.hpp"
 #include "io/gltf/document/extension.hpp"
 #include "io/gltf/document/index_text.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,8 +52,7 @@ class AnimationPlayer::Reader {
     const std::optional<std::size_t> width = width_of(*target);
     if (!width) return std::nullopt;
     const Element number = channel.member("sampler");
-    const Element sampler =
-        animation.member("samplers").item(static_cast<std::size_t>(number.value->number()));
+    const Element sampler = animation.member("samplers").item(index_from(*number.value));
     if (!has_data(sampler)) {
       asset_.warn(channel, "needs a buffer that has no data; it is ignored");
       return std::nullopt;
@@ -93,7 +93,7 @@ class AnimationPlayer::Reader {
     const std::optional<Path> path = path_of(name.value->string());
     if (!path) warn_of(name);
     if (!path) return std::nullopt;
-    return Target{at.member("node"), static_cast<std::size_t>(node->number()), *path};
+    return Target{at.member("node"), index_from(*node), *path};
   }
 
   std::optional<Target> pointed_at(const Element& pointer) {
@@ -176,9 +176,7 @@ class AnimationPlayer::Reader {
            reader_.has_data(accessor_of(sampler.member("output")));
   }
 
-  static std::size_t accessor_of(const Element& at) {
-    return static_cast<std::size_t>(at.value->number());
-  }
+  static std::size_t accessor_of(const Element& at) { return index_from(*at.value); }
 
   const Model::Accessor& accessor(const Element& at) const {
     return model_.accessors[accessor_of(at)];

@@ -4,6 +4,7 @@
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/document/extension.hpp"
+#include "io/gltf/document/properties.hpp"
 
 namespace microtrace::io::gltf {
 namespace {
@@ -56,7 +57,7 @@ void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
 /// Cuts or extends the data to the stated length. Some exporters count the padding to a multiple of
 /// 4 bytes but don't write it.
 void set_length(Asset& asset, const Element& at, Buffer& buffer) {
-  const auto length = static_cast<std::size_t>(at.value->number());
+  const auto length = index_from(*at.value);
   const std::size_t size = buffer.bytes->size();
   if (size < length) {
     const std::string problem = "states " + std::to_string(length) +

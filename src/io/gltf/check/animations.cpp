@@ -2,6 +2,7 @@
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/document/element_types.hpp"
 #include "io/gltf/document/extension.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <optional>
 #include <string>
@@ -48,7 +49,7 @@ class AnimationCheck {
                                  ", but the animation has only " +
                                  std::to_string(samplers.value->items().size()) + " samplers");
       }
-      const auto index = static_cast<std::size_t>(sampler.value->number());
+      const auto index = index_from(*sampler.value);
       const Element target = channel.member("target");
       if (!are_good_[index] || !this->target(target, samplers.item(index))) leave_out(target);
     }
@@ -79,7 +80,7 @@ class AnimationCheck {
                            "; animation times must be SCALAR of componentType 5126");
     }
     if (!head.has_bounds) {
-      asset_.tolerate(asset_.element("accessors", static_cast<std::size_t>(at.value->number())),
+      asset_.tolerate(asset_.element("accessors", index_from(*at.value)),
                       "holds animation times without min and max, which glTF 2.0 requires");
     }
     if (is_spline(sampler) && head.count < 2) {
@@ -96,7 +97,7 @@ class AnimationCheck {
         path == "translation" || path == "rotation" || path == "scale" || path == "weights";
     if (index == nullptr || !known)
       return true;  // ignored (section 3.11), or defined by an extension
-    const auto number = static_cast<std::size_t>(index->number());
+    const auto number = index_from(*index);
     const JsonValue& node = asset_.array("nodes")[number];
     if (path != "weights" && node.find("matrix") != nullptr) {
       return wrong(at.member("node"), "has a matrix, which can't be animated by " + path);
@@ -139,7 +140,7 @@ class AnimationCheck {
   [[nodiscard]] std::size_t morph_targets(const JsonValue& node) const {
     const JsonValue* mesh = node.find("mesh");
     if (mesh == nullptr) return 0;
-    return morph_target_count(asset_.array("meshes")[static_cast<std::size_t>(mesh->number())]);
+    return morph_target_count(asset_.array("meshes")[index_from(*mesh)]);
   }
 
   bool output(const Element& sampler, const std::string& path, std::size_t targets) {

@@ -1,5 +1,7 @@
 #include "io/gltf/check/forest.hpp"
 
+#include "io/gltf/document/properties.hpp"
+
 #include <string>
 
 namespace microtrace::io::gltf {
@@ -11,7 +13,7 @@ std::size_t child_count(const JsonValue& node) {
 }
 
 std::size_t child_of(const JsonValue& node, std::size_t number) {
-  return static_cast<std::size_t>(node.find("children")->items()[number].number());
+  return index_from(node.find("children")->items()[number]);
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
 #include "io/gltf/check/heads.hpp"
 
+#include "io/gltf/document/properties.hpp"
+
 #include <algorithm>
 
 namespace microtrace::io::gltf {
 namespace {
 
 std::size_t size_or_zero(const JsonValue& object, std::string_view key) {
-  const JsonValue* value = object.find(key);
-  return value != nullptr ? static_cast<std::size_t>(value->number()) : 0;
+  return index_in(object, key).value_or(0);
 }
 
 AccessorHead head_of(const Asset& asset, const JsonValue& accessor) {
@@ -82,7 +83,7 @@ AccessorHeads::AccessorHeads(Asset& asset) : asset_(asset) {
 }
 
 void AccessorHeads::use(const Element& at, Purpose purpose) {
-  const auto index = static_cast<std::size_t>(at.value->number());
+  const auto index = index_from(*at.value);
   Purpose& known = purposes_[index];
   const bool first_use = known == Purpose::none;
   if (first_use) {

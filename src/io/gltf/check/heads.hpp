@@ -2,6 +2,7 @@
 /// The declared formats of accessors, and the purposes for which they are used.
 
 #include "io/gltf/document/asset.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <cstddef>
 #include <initializer_list>
@@ -54,7 +55,7 @@ class AccessorHeads {
     return heads_[accessor];
   }
   [[nodiscard]] const AccessorHead& operator[](const JsonValue& index) const {
-    return heads_[static_cast<std::size_t>(index.number())];
+    return heads_[index_from(index)];
   }
 
   /// Records that the index `at` refers to an accessor, and uses it and its view for this purpose.

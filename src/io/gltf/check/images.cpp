@@ -1,5 +1,6 @@
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/check/semantics.hpp"
+#include "io/gltf/document/properties.hpp"
 #include "io/gltf/extensions/extensions.hpp"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ void check_image(Asset& asset, const Element& at, AccessorHeads& accessors) {
     asset.tolerate(at, "has a bufferView but no mimeType; the format is detected from the data");
   }
   const Element view = at.member("bufferView");
-  accessors.use_view(view, static_cast<std::size_t>(view.value->number()), Purpose::image);
+  accessors.use_view(view, index_from(*view.value), Purpose::image);
 }
 
 /// Warns if the property that refers to an image does not allow the image's declared type.
@@ -49,7 +50,7 @@ void check_source(Asset& asset, const Element& texture, std::string_view type,
                   std::string_view other_type) {
   const JsonValue* index = texture.value->find("source");
   if (index == nullptr) return;
-  const JsonValue& image = asset.array("images")[static_cast<std::size_t>(index->number())];
+  const JsonValue& image = asset.array("images")[index_from(*index)];
   const JsonValue* given = image.find("mimeType");
   if (given == nullptr || given->string() == type || given->string() == other_type) return;
   asset.tolerate(texture.member("source"), "refers to an image of " + given->string() +

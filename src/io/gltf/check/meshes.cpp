@@ -1,6 +1,7 @@
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/check/texture_infos.hpp"
 #include "io/gltf/document/element_types.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <algorithm>
 #include <array>
@@ -158,9 +159,8 @@ class MeshCheck {
       }
       alignment(attribute);
       if (member.key == "POSITION" && !accessors_[member.value].has_bounds) {
-        asset_.tolerate(
-            asset_.element("accessors", static_cast<std::size_t>(member.value.number())),
-            "holds positions without min and max, which glTF 2.0 requires");
+        asset_.tolerate(asset_.element("accessors", index_from(member.value)),
+                        "holds positions without min and max, which glTF 2.0 requires");
       }
     }
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
@@ -230,7 +230,7 @@ class MeshCheck {
   void material(const Element& at, const Element& attributes) const {
     const JsonValue* index = at.value->find("material");
     if (index == nullptr) return;
-    const MaterialTextures& textures = infos_[static_cast<std::size_t>(index->number())];
+    const MaterialTextures& textures = infos_[index_from(*index)];
     for (const auto& [name, set] : textures.sets) {
       if (attributes.value->find("TEXCOORD_" + text(set)) != nullptr) continue;
       asset_.tolerate(at.member("material"), "needs TEXCOORD_" + text(set) + " for its " + name +

@@ -1,4 +1,5 @@
 #include "io/gltf/check/semantics.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +75,7 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
     asset.tolerate(at.member("weights"), "have no effect: the node has no mesh");
     return asset.drop(at, {"weights"});
   }
-  const MeshParts& parts = meshes[static_cast<std::size_t>(mesh->number())];
+  const MeshParts& parts = meshes[index_from(*mesh)];
   if (has_skin && !parts.has_joints) {
     asset.tolerate(at.member("skin"), "applies to a mesh with a primitive that has no JOINTS_0");
   }
@@ -85,7 +86,7 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
 void drop_unknown_camera(Asset& asset, const Element& at) {
   const JsonValue* index = at.value->find("camera");
   if (index == nullptr) return;
-  const JsonValue& camera = asset.array("cameras")[static_cast<std::size_t>(index->number())];
+  const JsonValue& camera = asset.array("cameras")[index_from(*index)];
   if (camera.find("type") == nullptr) asset.drop(at, {"camera"});
 }
 
@@ -113,7 +114,7 @@ void check_nodes(Asset& asset, const NodeForest& forest) {
     const Element nodes = asset.element("scenes", i).member("nodes");
     for (std::size_t k = 0; k < nodes.value->items().size(); ++k) {
       const Element node = nodes.item(k);
-      if (const auto parent = forest.parent(static_cast<std::size_t>(node.value->number()))) {
+      if (const auto parent = forest.parent(index_from(*node.value))) {
         asset.tolerate(node, "is a child of node " + std::to_string(*parent) +
                                  "; scenes must list root nodes only");
       }

@@ -1,5 +1,6 @@
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/document/element_types.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <algorithm>
 #include <string>
@@ -8,14 +9,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-std::size_t index_of(const JsonValue& value) {
-  return static_cast<std::size_t>(value.number());
-}
-
 void check_joints(Asset& asset, const Element& at, const NodeForest& forest) {
   const std::vector<JsonValue>& joints = at.member("joints").value->items();
   const auto has_other_root = [&](const JsonValue& joint) {
-    return forest.root(index_of(joint)) != forest.root(index_of(joints[0]));
+    return forest.root(index_from(joint)) != forest.root(index_from(joints[0]));
   };
   if (std::ranges::any_of(joints, has_other_root)) {
     asset.tolerate(at.member("joints"), "must have a common root node");
@@ -23,7 +20,7 @@ void check_joints(Asset& asset, const Element& at, const NodeForest& forest) {
   const JsonValue* skeleton = at.value->find("skeleton");
   if (skeleton == nullptr) return;
   const auto is_outside = [&](const JsonValue& joint) {
-    return !forest.is_within(index_of(joint), index_of(*skeleton));
+    return !forest.is_within(index_from(joint), index_from(*skeleton));
   };
   if (std::ranges::any_of(joints, is_outside)) {
     asset.tolerate(at.member("skeleton"), "is not a common ancestor of the skin's joints");
@@ -52,7 +49,7 @@ std::vector<bool> roots_in_scenes(const Asset& asset, const NodeForest& forest) 
   for (const JsonValue& scene : asset.array("scenes")) {
     const JsonValue* nodes = scene.find("nodes");
     if (nodes == nullptr) continue;
-    for (const JsonValue& node : nodes->items()) result[forest.root(index_of(node))] = true;
+    for (const JsonValue& node : nodes->items()) result[forest.root(index_from(node))] = true;
   }
   return result;
 }
@@ -70,9 +67,9 @@ void check_skins(Asset& asset, AccessorHeads& accessors, const NodeForest& fores
   for (std::size_t i = 0; i < asset.array("nodes").size(); ++i) {
     const Element at = asset.element("nodes", i);
     if (!in_scene[forest.root(i)] || at.value->find("skin") == nullptr) continue;
-    const JsonValue& skin = asset.array("skins")[index_of(*at.value->find("skin"))];
+    const JsonValue& skin = asset.array("skins")[index_from(*at.value->find("skin"))];
     const std::vector<JsonValue>& joints = skin.find("joints")->items();
-    if (!joints.empty() && !in_scene[forest.root(index_of(joints[0]))]) {
+    if (!joints.empty() && !in_scene[forest.root(index_from(joints[0]))]) {
       asset.tolerate(at.member("skin"), "has joints that belong to no scene");
     }
   }

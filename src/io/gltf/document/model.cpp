@@ -2,6 +2,7 @@
 
 #include "base/memory_account.hpp"
 #include "io/gltf/document/model_json.hpp"
+#include "io/gltf/document/properties.hpp"
 #include "io/json/write.hpp"
 
 #include <microtrace/material.hpp>
@@ -223,12 +224,10 @@ Model parse_model(const Asset& asset) {
         &accessors = asset.array("accessors"), &meshes = asset.array("meshes");
   for (std::size_t i = 0; i < views.size(); ++i) {
     const tinygltf::BufferView& view = parsed.bufferViews[i];
-    const JsonValue* const stride = views[i].find("byteStride");
-    model.buffer_views.push_back(
-        {.buffer = static_cast<std::size_t>(view.buffer),
-         .offset = view.byteOffset,
-         .length = view.byteLength,
-         .stride = stride != nullptr ? static_cast<std::size_t>(stride->number()) : 0});
+    model.buffer_views.push_back({.buffer = static_cast<std::size_t>(view.buffer),
+                                  .offset = view.byteOffset,
+                                  .length = view.byteLength,
+                                  .stride = index_in(views[i], "byteStride").value_or(0)});
   }
   for (std::size_t i = 0; i < accessors.size(); ++i) {
     model.accessors.push_back(accessor_of(parsed.accessors[i], accessors[i]));

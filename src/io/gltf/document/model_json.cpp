@@ -1,5 +1,7 @@
 #include "io/gltf/document/model_json.hpp"
 
+#include "io/gltf/document/properties.hpp"
+
 #include <memory>
 #include <vector>
 
@@ -29,15 +31,6 @@ DVec3 vector_in(const JsonValue& object, std::string_view key, const DVec3& stan
 }
 
 }  // namespace
-
-std::size_t index_from(const JsonValue& value) {
-  return static_cast<std::size_t>(value.number());
-}
-
-std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key) {
-  const JsonValue* value = object.find(key);
-  return value != nullptr ? std::optional(index_from(*value)) : std::nullopt;
-}
 
 Model::Node node_of(const JsonValue& json) {
   Model::Node result{.mesh = index_in(json, "mesh"),

@@ -3,15 +3,7 @@
 
 #include "io/gltf/document/model.hpp"
 
-#include <cstddef>
-#include <optional>
-#include <string_view>
-
 namespace microtrace::io::gltf {
-
-[[nodiscard]] std::size_t index_from(const JsonValue& value);
-/// Returns the index in an optional member.
-[[nodiscard]] std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key);
 
 /// A file may have a million nodes, and tinygltf would need kilobytes for each.
 [[nodiscard]] Model::Node node_of(const JsonValue& json);

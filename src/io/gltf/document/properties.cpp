@@ -15,6 +15,11 @@ float number(const JsonValue& object, std::string_view key, float standard) {
   return value != nullptr ? finite_float(value->number()) : standard;
 }
 
+std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key) {
+  const JsonValue* value = object.find(key);
+  return value != nullptr ? std::optional(index_from(*value)) : std::nullopt;
+}
+
 std::uint32_t index(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
   constexpr std::uint32_t kGreatest = std::numeric_limits<std::uint32_t>::max();

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,13 @@ namespace microtrace::io::gltf {
 [[nodiscard]] float finite_float(double x);
 
 [[nodiscard]] float number(const JsonValue& object, std::string_view key, float standard);
+
+/// Converts a number that is an index, a count or a length.
+[[nodiscard]] inline std::size_t index_from(const JsonValue& value) {
+  return static_cast<std::size_t>(value.number());
+}
+/// Returns the index in an optional member.
+[[nodiscard]] std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key);
 
 /// Reads a vector, which has as many components as the schema requires.
 template <typename Vector>

@@ -41,7 +41,7 @@ void choose_variant(const Asset& asset, const std::string& variant, Model& model
         if (variants == nullptr || material == nullptr) continue;
         const auto is_wanted = [wanted](const JsonValue& item) { return item.number() == wanted; };
         if (!std::ranges::any_of(variants->items(), is_wanted)) continue;
-        model.meshes[i].primitives[k].material = static_cast<std::size_t>(material->number());
+        model.meshes[i].primitives[k].material = index_from(*material);
         break;  // glTF allows only one material for a variant
       }
     }

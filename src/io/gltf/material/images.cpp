@@ -5,6 +5,7 @@
 #include "io/file.hpp"
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
+#include "io/gltf/document/properties.hpp"
 #include "io/gltf/extensions/extensions.hpp"
 #include "io/image/decode/decode_image.hpp"
 #include "io/image/decode/image_header.hpp"
@@ -128,7 +129,7 @@ class ImageLoader {
                                            MemoryAccount& memory) const {
     const MemoryScope scope(memory);
     if (const JsonValue* view = at.value->find("bufferView")) {
-      return views_.bytes(static_cast<std::size_t>(view->number()));
+      return views_.bytes(index_from(*view));
     }
     const Element uri = at.member("uri");
     storage = is_data_uri(uri.value->string())

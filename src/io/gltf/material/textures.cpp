@@ -52,8 +52,7 @@ std::vector<Texture> make_textures(Asset& asset) {
                  "has no image in PNG, JPEG, WebP or KTX2; it is white");
     }
     if (const JsonValue* sampler = json.find("sampler")) {
-      texture.sampler =
-          make_sampler(asset.array("samplers")[static_cast<std::size_t>(sampler->number())]);
+      texture.sampler = make_sampler(asset.array("samplers")[index_from(*sampler)]);
     }
     textures.push_back(std::move(texture));
   }

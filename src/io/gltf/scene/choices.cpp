@@ -22,7 +22,7 @@ double end_of(const Asset& asset, const JsonValue& animation) {
     if (input == nullptr || !(input->number() >= 0) ||
         !(input->number() < static_cast<double>(accessors.size())))
       continue;
-    const JsonValue* most = accessors[static_cast<std::size_t>(input->number())].find("max");
+    const JsonValue* most = accessors[index_from(*input)].find("max");
     if (most != nullptr && !most->items().empty()) end = std::max(end, most->items()[0].number());
   }
   return end;

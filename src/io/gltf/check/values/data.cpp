@@ -3,6 +3,7 @@
 #include "io/gltf/check/values/elements.hpp"
 #include "io/gltf/check/values/influences.hpp"
 #include "io/gltf/check/values/uses.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <algorithm>
 #include <array>
@@ -231,8 +232,7 @@ class IndexCheck {
     const JsonValue* indices = primitive.find("indices");
     const JsonValue& attributes = *primitive.find("attributes");
     if (indices == nullptr || attributes.find("POSITION") != nullptr) return;
-    const auto accessor = static_cast<std::size_t>(indices->number());
-    const std::size_t count = vertex_count(attributes);
+    const std::size_t accessor = index_from(*indices), count = vertex_count(attributes);
     const std::optional<double> vertex = greatest(accessor);
     if (!vertex || *vertex < static_cast<double>(count)) return;
     asset_.tolerate(
@@ -243,7 +243,7 @@ class IndexCheck {
  private:
   [[nodiscard]] std::size_t vertex_count(const JsonValue& attributes) const {
     if (attributes.members().empty()) return 0;
-    return model_.accessors[static_cast<std::size_t>(attributes.members()[0].value.number())].count;
+    return model_.accessors[index_from(attributes.members()[0].value)].count;
   }
 
   /// Returns the greatest index in an accessor. Nothing if Elements::of can't read the accessor.

@@ -1,6 +1,7 @@
 #include "io/gltf/check/values/influences.hpp"
 
 #include "io/gltf/check/values/elements.hpp"
+#include "io/gltf/document/properties.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@ std::vector<std::size_t> joint_counts(const Asset& asset) {
   for (const JsonValue& node : asset.array("nodes")) {
     const JsonValue *mesh = node.find("mesh"), *skin = node.find("skin");
     if (mesh == nullptr || skin == nullptr) continue;
-    const JsonValue& json = asset.array("skins")[static_cast<std::size_t>(skin->number())];
-    std::size_t& least = result[static_cast<std::size_t>(mesh->number())];
+    const JsonValue& json = asset.array("skins")[index_from(*skin)];
+    std::size_t& least = result[index_from(*mesh)];
     least = std::min(least, json.find("joints")->items().size());
   }
   return result;
@@ -37,7 +38,7 @@ class InfluenceCheck {
       const JsonValue* joints = attributes.value->find("JOINTS_" + number);
       const JsonValue* weights = attributes.value->find("WEIGHTS_" + number);
       if (joints == nullptr || weights == nullptr) break;
-      const auto index = static_cast<std::size_t>(joints->number());
+      const auto index = index_from(*joints);
       vertices_ += model_.accessors[index].count;
       if (vertices_ > kMaxElements) {
         asset_.fail(attributes, "brings the asset to more than 2^27 skinned vertices",
@@ -54,7 +55,7 @@ class InfluenceCheck {
 
  private:
   [[nodiscard]] std::optional<Elements> elements(const JsonValue& index) const {
-    return Elements::of(asset_, model_, views_, static_cast<std::size_t>(index.number()));
+    return Elements::of(asset_, model_, views_, index_from(index));
   }
 
   static std::size_t joint(const Elements& joints, std::size_t vertex, std::size_t k) {

@@ -1,5 +1,7 @@
 #include "io/gltf/check/values/uses.hpp"
 
+#include "io/gltf/document/properties.hpp"
+
 #include <cstddef>
 
 namespace microtrace::io::gltf {
@@ -28,9 +30,7 @@ class UseCollector {
   }
 
  private:
-  AccessorUses& of(const JsonValue& index) {
-    return uses_[static_cast<std::size_t>(index.number())];
-  }
+  AccessorUses& of(const JsonValue& index) { return uses_[index_from(index)]; }
 
   void attribute(const JsonMember& member) {
     AccessorUses& uses = of(member.value);
@@ -44,8 +44,7 @@ class UseCollector {
     for (const JsonValue& sampler : samplers) of(*sampler.find("input")).times = true;
     for (const JsonValue& channel : animation.find("channels")->items()) {
       if (channel.find("target")->find("path")->string() != "rotation") continue;
-      const JsonValue& sampler =
-          samplers[static_cast<std::size_t>(channel.find("sampler")->number())];
+      const JsonValue& sampler = samplers[index_from(*channel.find("sampler"))];
       const JsonValue* interpolation = sampler.find("interpolation");
       AccessorUses& uses = of(*sampler.find("output"));
       uses.quaternions = true;
