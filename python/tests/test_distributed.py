@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
+from functools import partial
 
 import chaos
 import microtrace as mt
@@ -145,6 +147,27 @@ def test_workers_may_die_stop_and_have_full_disks(program, tmp_path, monkeypatch
         chaos.chaos_round(tmp_path, 1, 6, expected, "s3://chaos/set", options)
     finally:
         server.stop()
+
+
+def test_views_of_a_task_that_fails_are_not_counted_as_kept(tmp_path, monkeypatch):
+    # Each of two tasks has two small files and then a large one, which one of the workers can't
+    # write.
+    monkeypatch.setattr(md.datasets, "RangeRun", partial(md.datasets.RangeRun, start=3))
+    camera = {"azimuth": 0, "elevation": 0}
+    views = [{"camera": {**camera, "vertical_fov": f}} for f in (1e-3, 1e-3, 45)] * 2
+    (tmp_path / "views.json").write_text(json.dumps({"views": views}))
+    arguments = {"views": tmp_path / "views.json", "formats": ["png"]}
+    arguments["options"] = ["--size=256x192", "--integrator=normal"]
+    with Cluster(tmp_path) as cluster:
+        cluster.worker("full", file_limit=11000)
+        cluster.worker("other")
+        with cluster.client() as client:
+            client.wait_for_workers(2, timeout=60)
+            scene, folder = SCENES / "perspective1.json", tmp_path / "set"
+            assert md.dataset(client, scene, folder, **arguments) == md.Summary(6, 6, 0)
+            assert (folder / "000000.png").stat().st_size < 11000
+            assert (folder / "000005.png").stat().st_size > 11000
+            assert md.dataset(client, scene, folder, **arguments) == md.Summary(6, 0, 6)
 
 
 def test_dask_is_optional():

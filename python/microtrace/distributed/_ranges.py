@@ -211,16 +211,32 @@ class RangeRun:
             error = result
         if not isinstance(error, _PASSING):
             raise error
-        if self._done.count(0, flight.first, flight.last) == 0:
+        first, last = self._left_by(flight)
+        if first == last:
             return
         if flight.attempts >= self.retries:
             raise error
-        again = (flight.first, flight.last, flight.attempts + 1)
+        again = (first, last, flight.attempts + 1)
         self._looked = float("-inf")
         if self._look():
             self._submit(*again)
         else:
             self._delayed.append((time.monotonic() + 2.0 ** (flight.attempts - 1), again))
+
+    def _left_by(self, flight: _Flight) -> tuple[int, int]:
+        """Returns the range of a failed task's items that are left to do."""
+        done = self._done[flight.first : flight.last]
+        # The parts of a slow task need not be repeated. If a part fails too often, the slow task
+        # may still succeed.
+        if flight.is_divided or flight.attempts >= self.retries:
+            others = [(other.first, other.last) for other in self._flights.values()]
+            others += [(first, last) for _, (first, last, _) in self._delayed]
+            for first, last in others:
+                begin, end = max(first, flight.first), min(last, flight.last)
+                if begin < end:
+                    done[begin - flight.first : end - flight.first] = b"\1" * (end - begin)
+        first = done.find(0)
+        return (flight.first + first, flight.first + done.rfind(0) + 1) if first >= 0 else (0, 0)
 
     def _finish(self, flight: _Flight, outcome: Outcome) -> None:
         items = flight.last - flight.first
@@ -233,7 +249,8 @@ class RangeRun:
         self._done[flight.first : flight.last] = b"\1" * items
         self._left -= fresh
         for key, other in list(self._flights.items()):
-            if other.is_divided and self._done.count(0, other.first, other.last) == 0:
+            overlaps = other.first < flight.last and flight.first < other.last
+            if overlaps and self._done.count(0, other.first, other.last) == 0:
                 self.client.cancel([self._flights.pop(key).future])
         if self.progress is not None and self.progress(1 - self._left / self.count) is False:
             message = "canceled by the progress function"

@@ -55,6 +55,13 @@ class Store:
             self._files.invalidate_cache()
             return not self._files.find(self._root, maxdepth=2)
 
+    def names(self, subfolder: str) -> set[str]:
+        """Returns the names of the files in a subfolder."""
+        with self._failures():
+            self._files.invalidate_cache()
+            start = len(self._path(""))
+            return {path[start:] for path in self._files.find(self._path(subfolder))}
+
     def upload(self, folder: Path, names: Sequence[str]) -> None:
         """Stores files of a folder of this machine under the same names, several at a time."""
         with self._failures():
@@ -63,14 +70,12 @@ class Store:
     def download(self, subfolder: str, folder: Path) -> None:
         """Copies the files of a subfolder to the same names in a folder of this machine."""
         with self._failures():
-            self._files.invalidate_cache()
-            paths = list(self._files.find(self._path(subfolder)))
-            start = len(self._path(""))
-            targets = [str(folder / path[start:]) for path in paths]
-            for parent in {Path(target).parent for target in targets}:
+            names = sorted(self.names(subfolder))
+            for parent in {(folder / name).parent for name in names}:
                 parent.mkdir(parents=True, exist_ok=True)
-            if paths:
-                self._files.get(paths, targets)
+            if names:
+                paths = [self._path(name) for name in names]
+                self._files.get(paths, [str(folder / name) for name in names])
 
     def is_whole(self, record: str) -> bool:
         """Returns True if a view has a record and all its files have the right sizes."""

@@ -43,7 +43,7 @@ class Summary:
     """What a call of dataset() did."""
 
     views: int  #: number of views of the data set
-    rendered: int  #: number of views that were rendered; some possibly twice
+    rendered: int  #: number of views that were rendered
     kept: int  #: number of views that were finished before
 
 
@@ -142,7 +142,8 @@ def render_views(job: Job, first: int, last: int) -> Outcome:
         views: _Views = made_from(job.digest, _Views)
         with views.lock:
             watch = Stopwatch()
-            rendered = sum(views.render(int(views.order[i])) for i in range(first, last))
+            wanted = (int(views.order[i]) for i in range(first, last))
+            rendered = [view for view in wanted if views.render(view)]
             return watch.seconds(), (rendered, views.take_warnings())
 
     return attempt(job, work)
@@ -222,11 +223,11 @@ def dataset(
     order = np.array(core.order(), np.uint32)
     content = _Content(words, os.getcwd(), order, files, description, store, is_new)
     count = len(order)
-    rendered = 0
+    # The views that a task finished before it failed are in no result.
+    kept = {_record(view) for view in range(count)} & store.names("records")
 
     def receive(first: int, last: int, value: Any) -> None:
-        nonlocal rendered
-        rendered += value[0]
+        kept.difference_update(_record(view) for view in value[0])
         warn_once(value[1])
 
     with broadcast(client, content) as job, _shown(progress, count, "view") as show:
@@ -234,7 +235,7 @@ def dataset(
             client, "microtrace-dataset", render_views, job, count, receive, show, retries
         ).run()
     _finish(core, store, description)
-    return Summary(count, rendered, max(0, count - rendered))
+    return Summary(count, count - len(kept), len(kept))
 
 
 def _create(core: _core.Dataset, store: Store) -> tuple[bytes, bool]:
