@@ -26,6 +26,8 @@ struct Checkpoint {
   /// Other channels of the picture. compute_channels() computes some of them from the sums, so
   /// their values are not saved.
   std::vector<Channel> channels{};
+  /// The file from which it was loaded, which errors name; empty if there is none.
+  std::filesystem::path file{};
 };
 
 /// Writes a checkpoint; the file appears whole or not at all. Throws Error: io if it can't be
@@ -39,7 +41,7 @@ MICROTRACE_EXPORT void save_checkpoint(const Checkpoint& checkpoint,
 
 /// Adds the samples of `other`, which was read from `path`, to `checkpoint`; moves them if
 /// `checkpoint` has no samples yet. Throws Error (usage) if they belong to a different picture, or
-/// if some of them are already present. The message names the difference between the pictures. The
+/// if some of them are already present. The message names the differences between the pictures. The
 /// display becomes that of the checkpoint with the first samples, so checkpoints may be added in
 /// any order. The channels are those of the checkpoints with the most requested samples.
 MICROTRACE_EXPORT void add_samples(Checkpoint& checkpoint, Checkpoint other,

@@ -113,7 +113,8 @@ class Shards(ProgramTest):
         options = ["--frames", "0:3", "-o", "x%d.exr"]
         self.assertIn("samples 3 to 5 of 6 are missing", self.run_with("merge", "1_%02d", *options, code=2))
         self.assertIn("already present", self.run_with("merge", "1_%02d", "m%d", *options, code=2))
-        self.assertIn("made with frame 2, not with frame 1", self.run_with("merge", "1_01", "2_02", "-o", "x.exr", code=2))
+        self.assertIn("2_02: holds samples of another picture than 1_01: made with frame 2, not with frame 1",
+                      self.run_with("merge", "1_01", "2_02", "-o", "x.exr", code=2))
         self.assertIn("must contain the frame number", self.run_with("merge", "1_01", *options, code=2))
         (self.folder / "2_02").unlink()
         for frame in (1, 2):

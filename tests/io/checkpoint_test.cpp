@@ -164,8 +164,9 @@ TEST_F(CheckpointFile, DamageBeforeTheDigestIsRefusedOrReadInBoundedMemory) {
 }
 
 TEST(Checkpoint, NamesTheDifference) {
-  const auto message = [](const std::string& there, const std::string& here) {
-    Checkpoint ours{.identity = here};
+  const auto message = [](const std::string& there, const std::string& here,
+                          const char* file = "") {
+    Checkpoint ours{.identity = here, .file = file};
     try {
       add_samples(ours, Checkpoint{.identity = there}, "c");
     } catch (const Error& error) {
@@ -179,6 +180,12 @@ TEST(Checkpoint, NamesTheDifference) {
   EXPECT_EQ(message("--seed\t1\n", ""), start + "with --seed 1, not without --seed");
   EXPECT_EQ(message("", "--a\tb c\n"), start + "without --a, not with --a b c");
   EXPECT_EQ(message("--a\tb\n", "--a\tb\n"), "");
+  EXPECT_EQ(message("--b\t\n--seed\t1\n", "--a\t3\n--seed\t2\n"),
+            start +
+                "with --b, not without --b; with --seed 1, not with --seed 2; without --a, not " +
+                "with --a 3");
+  EXPECT_EQ(message("", "--a\t3\n", "folder/d"),
+            "c: holds samples of another picture than folder/d: made without --a, not with --a 3");
 }
 
 TEST(Checkpoint, RefusesSamplesThatArePresent) {

@@ -1,3 +1,5 @@
+#include "base/printable.hpp"
+
 #include <microtrace/checkpoint.hpp>
 #include <microtrace/error.hpp>
 
@@ -28,30 +30,32 @@ std::map<std::string, std::string, std::less<>> entries_of(std::string_view iden
 }
 
 std::string with(const std::string& name, const std::string& value) {
-  return "with " + name + " " + value;
+  return "with " + name + (value.empty() ? "" : " " + value);
 }
 
 std::string without(const std::string& name) {
   return "without " + name;
 }
 
-std::string contrast(const std::string& theirs, const std::string& ours) {
-  return "made " + theirs + ", not " + ours;
-}
-
-/// Returns a message about the first entry that differs, such as "made with --seed 1, not with
-/// --seed 2".
-std::string difference(std::string_view there, std::string_view here) {
+/// Returns a message about all entries that differ, such as "made with --seed 1, not with --seed 2;
+/// with --guiding, not without --guiding".
+std::string differences(std::string_view there, std::string_view here) {
   const auto theirs = entries_of(there), ours = entries_of(here);
+  std::string message;
+  const auto add = [&](const std::string& their, const std::string& our) {
+    message.append(message.empty() ? "made " : "; ").append(their).append(", not ").append(our);
+  };
   for (const auto& [name, value] : theirs) {
     const auto our = ours.find(name);
-    if (our == ours.end()) return contrast(with(name, value), without(name));
-    if (our->second != value) return contrast(with(name, value), with(name, our->second));
+    if (our == ours.end())
+      add(with(name, value), without(name));
+    else if (our->second != value)
+      add(with(name, value), with(name, our->second));
   }
   for (const auto& [name, value] : ours) {
-    if (!theirs.contains(name)) return contrast(without(name), with(name, value));
+    if (!theirs.contains(name)) add(without(name), with(name, value));
   }
-  return "made with the same options in another order";
+  return message.empty() ? "made with the same options in another order" : message;
 }
 
 /// Returns true if the picture of both checkpoints is displayed like that of `a`: the one with the
@@ -106,8 +110,12 @@ void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem
   const auto refuse = [&](const std::string& message) {
     throw Error(ErrorKind::usage, path.string(), message);
   };
-  if (other.identity != checkpoint.identity)
-    refuse("holds samples of another picture: " + difference(other.identity, checkpoint.identity));
+  if (other.identity != checkpoint.identity) {
+    const std::string known =
+        checkpoint.file.empty() ? "" : " than " + printable(checkpoint.file.string());
+    refuse("holds samples of another picture" + known + ": " +
+           differences(other.identity, checkpoint.identity));
+  }
   checkpoint.has_lens |= other.has_lens;
   checkpoint.has_ground |= other.has_ground;
   if (checkpoint.sums.pixels.empty()) {

@@ -241,6 +241,7 @@ Checkpoint load_checkpoint(const std::filesystem::path& path) {
   if (end.number<std::uint64_t>() != digest.value()) fail_as_damaged(path);
   reader = io::ByteReader(content.substr(kMagic.size() + sizeof(kVersion)));
   Checkpoint checkpoint = decode_head(reader, path);
+  checkpoint.file = path;
   BlocksOfFile blocks(reader, path);
   blocks.read(checkpoint.sums.pixels);
   const auto channels = reader.number<std::uint32_t>();
