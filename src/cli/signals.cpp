@@ -87,8 +87,7 @@ bool is_ignored(int signal) {
 
 void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
-    const bool can_wait = signal == SIGINT || signal == SIGTERM || signal == SIGXCPU;
-    if (!is_ignored(signal)) handle(signal, can_wait ? end_soon : end_at_once);
+    if (!is_ignored(signal)) handle(signal, signal != SIGQUIT ? end_soon : end_at_once);
   }
   handle(SIGPIPE, SIG_IGN);
   handle(SIGXFSZ, SIG_IGN);

@@ -11,9 +11,9 @@ namespace microtrace::cli {
 /// instead of raising a signal.
 void handle_signals();
 
-/// During the lifetime of an object of this class, the first INT, TERM or XCPU is only recorded, so
-/// that the program can save its samples before it ends. A second INT or TERM, at least half a
-/// second later, ends the process at once.
+/// During the lifetime of an object of this class, the first INT, TERM, HUP or XCPU is only
+/// recorded, so that the program can save its samples before it ends. A second INT, TERM or HUP, at
+/// least half a second later, ends the process at once.
 class DelayedSignals {
  public:
   DelayedSignals();

@@ -105,13 +105,13 @@ class Samples(ProgramTest):
             process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, env=environment(),
                                        stderr=subprocess.PIPE)
             time.sleep(random.uniform(0, 0.3))
-            process.send_signal(random.choice([signal.SIGTERM, signal.SIGINT, signal.SIGXCPU]))
+            process.send_signal(random.choice([signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGXCPU]))
             _, message = process.communicate(timeout=60)
             if process.returncode == 0:
                 break
             # An early signal ends the program before it has installed its handlers, or at once.
             self.assertIn(process.returncode, [sign * number for sign, base in ((1, 128), (-1, 0)) for number in
-                                               (base + signal.SIGTERM, base + signal.SIGINT, base + signal.SIGXCPU)])
+                                               (base + signal.SIGTERM, base + signal.SIGINT, base + signal.SIGHUP, base + signal.SIGXCPU)])
             if message.endswith(b"interrupted: the samples are saved in c\n"):
                 saved += 1
                 self.assertTrue((self.folder / "c").exists())
@@ -175,6 +175,14 @@ class Samples(ProgramTest):
                 time.sleep(0.005)
 
         self.assertEqual(self.interrupted(interrupt), 128 + signal.SIGTERM)
+
+    def test_runs_save_their_samples_when_the_terminal_is_closed(self):
+        # The kernel and the shell both signal the program.
+        def interrupt(pid):
+            os.kill(pid, signal.SIGHUP)
+            os.kill(pid, signal.SIGHUP)
+
+        self.assertEqual(self.interrupted(interrupt), 128 + signal.SIGHUP)
 
     def test_runs_whose_whole_group_is_interrupted_save_their_samples(self):
         code = "import subprocess, sys; p = subprocess.Popen(sys.argv[1:]); print(p.pid, flush=True); p.wait()"

@@ -104,6 +104,22 @@ class Slurm(ProgramTest):
         self.finish(task)
         self.assertEqual(self.requeued(), ["requeue 71_3"])
 
+    def test_a_program_that_is_hung_up_saves_its_samples_and_is_not_queued_again(self):
+        command = [SCENE, "--integrator", "path", "--spp", "3000", "--size", "64x48", "--checkpoint", "part{}", "--save-every", "0"]
+        task = self.start(0, *command)
+        program = self.program_of(task)
+        while not (self.folder / "part1").exists():
+            time.sleep(0.01)
+        os.kill(program, signal.SIGHUP)
+        self.assertIn("the samples are saved in part1", self.finish(task, 128 + signal.SIGHUP))
+        self.assertEqual(self.requeued(), [])
+        self.finish(self.start(0, *command))
+        again = self.run_program(*[str(word).replace("{}", "one") for word in command], "--shard", "1/4")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        for name in ("part1", "partone"):
+            self.assertEqual(self.run_program("merge", name, "--partial", "-o", f"{name}.exr").returncode, 0)
+        self.assertEqual((self.folder / "part1.exr").read_bytes(), (self.folder / "partone.exr").read_bytes())
+
     def test_a_task_is_not_queued_forever(self):
         task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}",
                           restarts=10)
