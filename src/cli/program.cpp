@@ -21,7 +21,9 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <string_view>
+#include <sys/resource.h>
 
 namespace microtrace {
 namespace {
@@ -43,6 +45,16 @@ int exit_code_of(const Work& work) {
     std::fprintf(stderr, "error: %s\n", printable(error.what()).c_str());
     return static_cast<int>(ErrorKind::internal);
   }
+}
+
+/// Throws Error (limit) if the stacks of the main thread and of new threads may overflow.
+void require_stack() {
+  constexpr rlim_t kLeast = rlim_t{1} << 20U;  // the kernels for streams of rays use almost half
+  rlimit stack{};
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kLeast) return;
+  throw Error(ErrorKind::limit, "",
+              "stacks are limited to " + std::to_string(stack.rlim_cur >> 10U) +
+                  " KiB, but microtrace needs 1024 KiB; raise the limit, as by ulimit -s 8192");
 }
 
 /// Applies the options that end a run early.
@@ -82,6 +94,7 @@ int run_command(const NamedCommand& named, int argc, char** argv) {
       cli::write_standard_output(*parsed.output);
       return 0;
     }
+    require_stack();
     limit_run(parsed.arguments);
     return named.run(parsed.arguments);
   });

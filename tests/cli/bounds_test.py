@@ -56,6 +56,21 @@ class Bounds(ProgramTest):
             said = self.draw(scene, "--memory-limit", text, code=2)
             self.assertIn("--memory-limit", said)
 
+    def test_small_stacks_are_refused(self):
+        def run(kibibytes, *arguments):
+            size = kibibytes << 10
+            return self.run_program(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_STACK, (size, size)))
+
+        # Shadow rays of a scene with instances use most.
+        words = [SOURCE / "scenes/gltf/moving.glb", *SMALL, "--size", "32x24", "--instances", "share", "--integrator", "path", "--spp", "1"]
+        refused = run(1023, *words)
+        self.assertEqual((refused.returncode, refused.stderr), (6, b"error: stacks are limited to 1023 KiB, but microtrace needs 1024 KiB; "
+                                                                   b"raise the limit, as by ulimit -s 8192\n"))
+        self.assertEqual(run(64, "--help").returncode, 0)
+        for threads in ("1", "2"):
+            drawn = run(1024, *words, "--threads", threads)
+            self.assertEqual((drawn.returncode, drawn.stderr), (0, b""))
+
     def test_allocations_beyond_the_limit_are_refused(self):
         limit = 64
         cases = [("zeros", 3 << 24), ("zeros_with_attributes", 3 << 24), ("sparse_zeros", 3 << 24),
