@@ -80,7 +80,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
     auto [squared_distance, next] = stack[--size];
     if (squared_distance > limit_ || reader.leave(next)) continue;
     if (reader.enter(next)) stack[size++] = {0, child_ref::kInstanceEnd};
-    if ((next & child_ref::kKind) == 0) {
+    if (build::kind_of(next) == 0) {
       const WideNode& node = reader.node(next);
       target_.kernels.box_distances(node, &point.x, distances.data());
       const std::size_t first = size;
@@ -95,8 +95,8 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       continue;
     }
     poll();
-    const std::uint32_t begin = (next & ~child_ref::kKind) >> 3U, end = begin + (next & 7U) + 1;
-    const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
+    const auto [begin, end] = build::entries_of(next);
+    const bool are_triangles = build::kind_of(next) == child_ref::kTriangles;
     for (std::uint32_t k = begin; k < end; ++k) {
       if (!are_triangles) {
         const PrimitiveId id = reader.other(k);
@@ -106,8 +106,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       const TriangleBlock& block = reader.block(k);
       target_.kernels.triangle_distances(block, &point.x, distances.data());
       for (std::size_t i = 0; i < kWidth; ++i) {
-        const bool is_used = block.a[0][i] == block.a[0][i];
-        if (is_used && !(distances[i] > limit_))
+        if (build::is_used(block, i) && !(distances[i] > limit_))
           consider(block.id[i], build::triangle_in(block, i), p);
       }
     }

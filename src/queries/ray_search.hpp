@@ -2,6 +2,7 @@
 /// Visits all leaves of a tree that a ray may meet, in no particular order, for queries that need
 /// all hits.
 
+#include "accel/build/wide/wide_tree.hpp"
 #include "accel/instances/tree_reader.hpp"
 #include "accel/layout.hpp"
 #include "queries/tree_target.hpp"
@@ -36,15 +37,15 @@ void for_each_candidate(const TreeTarget& target, const Ray& ray, const OnBlock&
     ChildRef next = stack[--size];
     if (reader.leave(next)) continue;
     if (reader.enter(next)) stack[size++] = child_ref::kInstanceEnd;
-    if ((next & child_ref::kKind) == 0) {
+    if (build::kind_of(next) == 0) {
       const WideNode& node = reader.node(next);
       for (unsigned lanes = kernels.entered(node, line); lanes != 0; lanes &= lanes - 1)
         stack[size++] = node.child[std::countr_zero(lanes)];
       continue;
     }
-    const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
-    const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
-    for (std::uint32_t i = first; i < end; ++i) {
+    const auto [begin, end] = build::entries_of(next);
+    const bool are_triangles = build::kind_of(next) == child_ref::kTriangles;
+    for (std::uint32_t i = begin; i < end; ++i) {
       if (!are_triangles) {
         on_other(reader.other(i));
         continue;

@@ -2,6 +2,7 @@
 /// Finds the primitives of a tree near a box.
 
 #include "accel/build/tree.hpp"
+#include "accel/build/wide/wide_tree.hpp"
 #include "accel/instances/tree_reader.hpp"
 #include "accel/layout.hpp"
 
@@ -29,8 +30,7 @@ void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
     ChildRef next = stack[--size];
     if (reader.leave(next)) continue;
     if (reader.enter(next)) stack[size++] = child_ref::kInstanceEnd;
-    const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, count = (next & 7U) + 1;
-    if ((next & child_ref::kKind) == 0) {
+    if (build::kind_of(next) == 0) {
       const WideNode& node = reader.node(next);
       for (int i = 0; i < kWidth; ++i) {
         const bool touches = node.lo_x[i] <= box.hi.x && box.lo.x <= node.hi_x[i] &&
@@ -38,16 +38,18 @@ void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
                              node.lo_z[i] <= box.hi.z && box.lo.z <= node.hi_z[i];
         if (touches) stack[size++] = node.child[i];
       }
-    } else if ((next & child_ref::kKind) == child_ref::kTriangles) {
-      for (std::uint32_t b = first; b < first + count; ++b) {
-        const TriangleBlock& block = reader.block(b);
-        for (int i = 0; i < kWidth; ++i) {
-          const bool used = block.a[0][i] == block.a[0][i];  // unused slots have NaN
-          if (used) f(block.id[i]);
-        }
+      continue;
+    }
+    const auto [begin, end] = build::entries_of(next);
+    const bool are_triangles = build::kind_of(next) == child_ref::kTriangles;
+    for (std::uint32_t k = begin; k < end; ++k) {
+      if (!are_triangles) {
+        f(reader.other(k));
+        continue;
       }
-    } else {
-      for (std::uint32_t k = first; k < first + count; ++k) f(reader.other(k));
+      const TriangleBlock& block = reader.block(k);
+      for (std::size_t i = 0; i < kWidth; ++i)
+        if (build::is_used(block, i)) f(block.id[i]);
     }
   }
 }

@@ -37,10 +37,10 @@ void set_box(WideNode& node, std::size_t i, const Box& box);
 
 /// The range of a leaf's entries in the array for this kind of leaf.
 struct LeafEntries {
-  std::size_t begin, end;
+  std::uint32_t begin, end;
 };
 [[nodiscard]] inline LeafEntries entries_of(ChildRef leaf) {
-  const std::size_t begin = (leaf & ~child_ref::kKind) >> 3U;
+  const std::uint32_t begin = (leaf & ~child_ref::kKind) >> 3U;
   return {.begin = begin, .end = begin + (leaf & 7U) + 1};
 }
 
