@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <random>
+#include <variant>
 #include <vector>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 namespace microtrace::dataset {
@@ -58,6 +61,11 @@ TEST(Overlaps, PartsContainAllHitsOfTheirObjects) {
   add(Sphere{.center = {-2, 0, -7}, .radius = 1});
   add(Plane{.point = {0, -2, 0}, .normal = {0, 1, 0}});
   add(Mesh{});
+  // The first mesh, upside down and to the right, where the mesh itself isn't.
+  Mesh placed = std::get<Mesh>(scene.objects[0].shape);
+  placed.placement = std::make_shared<const Placement>(
+      glm::scale(glm::translate(DMat4(1), DVec3(4, 0, -4)), DVec3(1, -1, 1)));
+  add(placed);
   const Camera camera = PerspectiveCamera{};
   const RayGenerator rays(camera, kSize);
   const std::vector<PixelRect> parts = parts_of_objects(scene, camera, rays, window);
@@ -65,6 +73,8 @@ TEST(Overlaps, PartsContainAllHitsOfTheirObjects) {
   EXPECT_LT(parts[0].size().width, kSize.width);
   EXPECT_EQ(parts[3], window);
   EXPECT_FALSE(contains(parts[4], 0, 0));
+  EXPECT_LT(parts[5].size().width, kSize.width / 2);
+  EXPECT_LT(parts[5].size().height, kSize.height / 2);
   const Bvh bvh(scene);
   std::vector<int> hits(parts.size());
   for (std::uint32_t y = 0; y < kSize.height; ++y) {
@@ -77,7 +87,7 @@ TEST(Overlaps, PartsContainAllHitsOfTheirObjects) {
       }
     }
   }
-  for (std::size_t object = 0; object < 4; ++object) EXPECT_GT(hits[object], 0) << object;
+  for (const std::size_t object : {0U, 1U, 2U, 3U, 5U}) EXPECT_GT(hits[object], 0) << object;
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Case<Triangle> wall_case(Random& random) {
   return {{.o = o, .t_min = 0, .d = (target - o) * random.power_of_two(-3, 3)}, t};
 }
 
-/// Returns the kernel's hit point if it is certain, otherwise nothing.
+/// Returns the kernel's hit point if it is certain, otherwise nothing. All lanes must agree.
 std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const Triangle& t) {
   HitPointLanes lanes{};
   for (std::size_t i = 0; i < kSpawnLanes; ++i) {
@@ -57,8 +57,12 @@ std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const 
     lanes.t_max[i] = ray.t_max;
   }
   kernels.find_hit_points(lanes);
-  if (lanes.is_sure[1] == 0) return std::nullopt;
-  return Vec3(lanes.p[0][1], lanes.p[1][1], lanes.p[2][1]);
+  const auto point = [&](std::size_t i) -> std::optional<Vec3> {
+    if (lanes.is_sure[i] == 0) return std::nullopt;
+    return Vec3(lanes.p[0][i], lanes.p[1][i], lanes.p[2][i]);
+  };
+  for (std::size_t i = 1; i < kSpawnLanes; ++i) EXPECT_EQ(point(i), point(0)) << i;
+  return point(0);
 }
 
 struct PointCount {
@@ -87,14 +91,18 @@ void check(const Ray& ray, const Triangle& t, PointCount& count) {
     ASSERT_TRUE(holds(in_plane.value, in_plane.error)) << reproduction(ray, t);
   }
   const Vec3 expected = unsigned_zeros(exact::round_point(ray, *exact_t));
-  const auto p = rounded_point(point, t.a, normal), q = of_lanes(kSpawnKernels.best(), ray, t);
-  for (int k = 0; k < 3; ++k) {
-    const auto bits = [&](const Vec3& v) { return std::bit_cast<std::uint32_t>(v[k]); };
-    ASSERT_TRUE(!p || bits(*p) == bits(expected)) << reproduction(ray, t);
-    ASSERT_TRUE(!q || bits(*q) == bits(expected)) << reproduction(ray, t);
-  }
+  const auto is_right = [&](const std::optional<Vec3>& p) {
+    return !p || std::bit_cast<std::array<std::uint32_t, 3>>(*p) ==
+                     std::bit_cast<std::array<std::uint32_t, 3>>(expected);
+  };
+  const auto p = rounded_point(point, t.a, normal);
+  ASSERT_TRUE(is_right(p)) << reproduction(ray, t);
   count.sure += p ? 1 : 0;
-  count.sure_in_lanes += q ? 1 : 0;
+  const auto in_lanes = of_lanes(*kSpawnKernels.portable, ray, t);
+  count.sure_in_lanes += in_lanes ? 1 : 0;
+  ASSERT_TRUE(is_right(in_lanes)) << reproduction(ray, t);
+  for (const SpawnKernels* kernels : kSpawnKernels.available())
+    ASSERT_EQ(of_lanes(*kernels, ray, t), in_lanes) << reproduction(ray, t);
 }
 
 // The other two coordinates are known exactly, so the bound has to cover only the roundings of this
