@@ -247,6 +247,29 @@ TEST(GltfAnimationPointer, IntegersMayBeNormalizedOrNot) {
   EXPECT_EQ(material_at(asset, 1).alpha_cutoff, 2);
 }
 
+TEST(GltfAnimationPointer, IntegersMoveNodes) {
+  AssetBuilder asset = cube();
+  point(asset, "/nodes/0/translation",
+        asset.add_numbers<std::int16_t>("VEC3", {0, 0, 0, 4, -2, 6}));
+  const auto corner = [&](double time) {
+    return std::get<Mesh>(at(asset, time).scene.objects.at(0).shape).position(0);
+  };
+  EXPECT_EQ(corner(1) - corner(0), Vec3(2, -1, 3));
+}
+
+TEST(GltfAnimationPointer, NodesIgnoreValuesOfAnotherType) {
+  for (const char* pointer : {"/nodes/0/translation", "/nodes/0/rotation", "/nodes/0/scale"}) {
+    for (const char* type : {"SCALAR", "VEC2"}) {
+      AssetBuilder asset = cube();
+      point(asset, pointer, type, {1, 2, 3, 4});
+      EXPECT_THAT(texts(load(asset, {.time = 1}).warnings),
+                  ElementsAre(HasSubstr(
+                      "/animations/0/samplers/0/output: has a type or number of elements")))
+          << pointer << type;
+    }
+  }
+}
+
 TEST(GltfAnimationPointer, PointersToNothingGiveWarnings) {
   for (const char* pointer :
        {"/materials/1/alphaCutoff", "/materials/0/alphaMode", "/materials/0/doubleSided",

@@ -57,14 +57,14 @@ class AnimationPlayer::Reader {
       asset_.warn(channel, "needs a buffer that has no data; it is ignored");
       return std::nullopt;
     }
-    if (is_pointed_at(target->path) && !fits(sampler, *target)) {
+    if (target->is_pointed_at && !fits(sampler, *target, *width)) {
       asset_.warn(
           sampler.member("output"),
           "has a type or number of elements that doesn't fit the property its pointer names; the "
           "channel is ignored");
       return std::nullopt;
     }
-    Keyframes keys = keyframes(sampler, target->path, *width);
+    Keyframes keys = keyframes(sampler, target->path == Path::rotation, *width);
     if (keys.times->empty()) return std::nullopt;
     return Channel{.node = target->node,
                    .path = target->path,
@@ -78,6 +78,7 @@ class AnimationPlayer::Reader {
     std::size_t node;
     Path path;
     AnimatedProperty property{};
+    bool is_pointed_at = false;  ///< by KHR_animation_pointer
   };
 
   /// Returns the node and property that a channel animates. A KHR_animation_pointer may refer to a
@@ -103,15 +104,16 @@ class AnimationPlayer::Reader {
     if (text.starts_with(kNodes) && slash >= kNodes.size()) {
       const auto node = index_in(text.substr(kNodes.size(), slash - kNodes.size()));
       const std::optional<Path> path = path_of(text.substr(slash + 1));
-      if (node && *node < model_.nodes.size() && path) return Target{pointer, *node, *path};
+      if (node && *node < model_.nodes.size() && path)
+        return Target{pointer, *node, *path, {}, true};
     }
     const std::optional<AnimatedProperty> property = find_property(asset_, text);
     if (!property) {
       warn_of(pointer);
       return std::nullopt;
     }
-    if (!property->is_boolean) return Target{pointer, 0, Path::property, *property};
-    return Target{pointer, index_in(property->path[1]).value(), Path::visibility, *property};
+    if (!property->is_boolean) return Target{pointer, 0, Path::property, *property, true};
+    return Target{pointer, index_in(property->path[1]).value(), Path::visibility, *property, true};
   }
 
   void warn_of(const Element& at) {
@@ -134,8 +136,8 @@ class AnimationPlayer::Reader {
   /// Returns the number of components of one value. Returns nothing if the target can't be
   /// animated.
   std::optional<std::size_t> width_of(const Target& target) {
-    const auto& [at, node, path, property] = target;
-    if (is_pointed_at(path)) return property.width;
+    const auto& [at, node, path, property, is_pointed_at] = target;
+    if (path == Path::property || path == Path::visibility) return property.width;
     const Model::Node& animated = model_.nodes[node];
     if (path == Path::weights) {
       const std::size_t targets = target_count(model_, animated.mesh);
@@ -150,25 +152,23 @@ class AnimationPlayer::Reader {
     return path == Path::rotation ? 4 : 3;
   }
 
-  /// Returns true for properties that only KHR_animation_pointer can animate.
-  static bool is_pointed_at(Path path) {
-    return path == Path::property || path == Path::visibility;
-  }
-
-  /// Returns true if the sampler's accessors fit a target of KHR_animation_pointer. Numbers may be
-  /// floats or integers. Booleans require integers and STEP interpolation.
-  bool fits(const Element& sampler, const Target& target) const {
+  /// Returns true if the sampler's accessors fit a target of KHR_animation_pointer, whose values
+  /// have `width` components. Numbers may be floats or integers. Booleans require integers and STEP
+  /// interpolation. check_animations has checked the samplers of other targets.
+  bool fits(const Element& sampler, const Target& target, std::size_t width) const {
     const Model::Accessor& in = accessor(sampler.member("input"));
     const Model::Accessor& out = accessor(sampler.member("output"));
     const JsonValue* kind = sampler.value->find("interpolation");
     const bool is_step = kind != nullptr && kind->string() == "STEP";
-    const std::size_t values = kind != nullptr && kind->string() == "CUBICSPLINE" ? 3 : 1;
+    const bool is_array = target.path == Path::weights;
+    const std::size_t values = (kind != nullptr && kind->string() == "CUBICSPLINE" ? 3 : 1) *
+                               (is_array ? width : std::size_t{1});
     if (in.type != ElementType::scalar || in.component_type != kFloat32 || is_matrix(out.type) ||
-        component_count(out.type) != target.property.width || out.count != in.count * values) {
+        component_count(out.type) != (is_array ? 1 : width) || out.count != in.count * values) {
       return false;
     }
     const bool is_float = out.component_type == kFloat32;
-    return target.path == Path::property || (!is_float && is_step);
+    return target.path != Path::visibility || (!is_float && is_step);
   }
 
   bool has_data(const Element& sampler) const {
@@ -182,10 +182,9 @@ class AnimationPlayer::Reader {
     return model_.accessors[accessor_of(at)];
   }
 
-  Keyframes keyframes(const Element& sampler, Path path, std::size_t width) {
+  Keyframes keyframes(const Element& sampler, bool are_rotations, std::size_t width) {
     const Element input = sampler.member("input"), output = sampler.member("output");
-    if (!is_pointed_at(path)) check_types(input, output, path);
-    Keyframes keys{.are_rotations = path == Path::rotation,
+    Keyframes keys{.are_rotations = are_rotations,
                    .width = width,
                    .times = numbers(input),
                    .values = numbers(output)};
@@ -228,23 +227,6 @@ class AnimationPlayer::Reader {
     if (count_ > kMaxElements) {
       asset_.fail(at, "brings the animations to more than 2^27 numbers, the limit",
                   ErrorKind::limit);
-    }
-  }
-
-  void check_types(const Element& input, const Element& output, Path path) const {
-    const Model::Accessor& in = accessor(input);
-    const Model::Accessor& out = accessor(output);
-    if (in.type != ElementType::scalar || in.component_type != kFloat32) {
-      asset_.fail(input, "must refer to an accessor of type SCALAR and floats");
-    }
-    const ElementType type = path == Path::weights    ? ElementType::scalar
-                             : path == Path::rotation ? ElementType::vec4
-                                                      : ElementType::vec3;
-    const bool may_be_integer = path == Path::rotation || path == Path::weights;
-    const bool is_integer = out.component_type != kFloat32;
-    const bool is_narrow = component_size(out.component_type) < 4;
-    if (out.type != type || (is_integer && !(may_be_integer && is_narrow && out.normalized))) {
-      asset_.fail(output, "refers to an accessor of the wrong type for its path");
     }
   }
 
