@@ -267,6 +267,19 @@ TEST(GltfMeshopt, ViolationsOfTheExtensionAreRefused) {
   }
 }
 
+TEST(GltfMeshopt, AttributesOfVersion1AreNamed) {
+  const Json json = grid(true, [](std::string& bytes) {
+                      if (bytes[0] == '\xa0') bytes[0] = '\xa1';
+                    }).json();
+  try {
+    (void)load(json.dump());
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.diagnostic().pointer, "/bufferViews/0/extensions/EXT_meshopt_compression");
+    EXPECT_THAT(error.diagnostic().message, HasSubstr("attributes of version 1"));
+  }
+}
+
 TEST(GltfMeshopt, CountsBeyondTheDataAreRefusedBeforeAllocation) {
   Json json = grid(true).json();
   const double count = 4e8;

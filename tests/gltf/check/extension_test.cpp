@@ -221,7 +221,8 @@ std::set<std::string> documented(const std::string& heading, const std::string& 
   std::string text = text_of("docs/gltf.md");
   text = text.substr(text.find(heading));
   text.resize(text.find(next));
-  const std::regex name("`((?:KHR_materials|AGI|CESIUM|EXT|FB|KHR|MSFT|VRMC)?_[a-z]\\w*|VRM)`");
+  const std::regex name(
+      "`((?:KHR_materials|AGI|CESIUM|EXT|FB|KHR|MSFT|VRMC)?_(?:[a-z]\\w*|RTC)|VRM)`");
   std::set<std::string> result;
   for (std::sregex_iterator at(text.begin(), text.end(), name); at != std::sregex_iterator();
        ++at) {

@@ -89,9 +89,16 @@ TEST(GltfBasisu, SidesShouldBeMultiplesOfFour) {
   EXPECT_EQ(image_of(loaded.scene).height, 5U);
 }
 
+/// Returns the cube with a texture that has only a KTX2 image.
+AssetBuilder without_fallback(const std::string& ktx2) {
+  AssetBuilder asset = textured(ktx2);
+  asset.json["textures"][0].erase("source");
+  return asset;
+}
+
 TEST(GltfBasisu, DamagedAndUnsupportedTexturesAreWhite) {
   const auto expect = [](const std::string& ktx2, const char* words) {
-    const LoadedScene loaded = load(textured(ktx2));
+    const LoadedScene loaded = load(without_fallback(ktx2));
     EXPECT_THAT(texts(loaded.warnings),
                 Contains(AllOf(HasSubstr("/images/0: can't be decoded, so its textures are white"),
                                HasSubstr(words))));
@@ -103,12 +110,35 @@ TEST(GltfBasisu, DamagedAndUnsupportedTexturesAreWhite) {
   expect(ktx2, "is KTX2 with 6 faces");
   ktx2[20] = 0;
   try {
-    (void)load(textured(ktx2));
+    (void)load(without_fallback(ktx2));
     ADD_FAILURE() << "has no size";
   } catch (const Error& error) {
     EXPECT_EQ(error.diagnostic().pointer, "/images/0");
     EXPECT_THAT(error.what(), HasSubstr("header has no size"));
   }
+}
+
+TEST(GltfBasisu, FallbacksReplaceTexturesThatCannotBeDecoded) {
+  const std::string ktx2 = ktx2_file("etc1s_runs_100x36");
+  std::string no_size = ktx2;
+  no_size[20] = 0;
+  const std::string damaged[] = {ktx2.substr(0, 500), no_size, "neither PNG nor KTX2"};
+  for (const std::string& bytes : damaged) {
+    const LoadedScene loaded = load(textured(bytes));
+    EXPECT_THAT(
+        texts(loaded.warnings),
+        ElementsAre(AllOf(HasSubstr("/images/0: "), HasSubstr("its textures use other images"))));
+    EXPECT_EQ(loaded.scene.textures.at(0).image, 1U);
+    ASSERT_THAT(loaded.scene.images.at(1), NotNull());
+    EXPECT_EQ(loaded.scene.images[1]->width, 1U);
+  }
+  // A texture without a fallback keeps its image, which is null.
+  AssetBuilder both = textured(ktx2.substr(0, 500));
+  both.add("textures", {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}});
+  const LoadedScene loaded = load(both);
+  EXPECT_THAT(texts(loaded.warnings), Contains(HasSubstr("its textures are white")));
+  EXPECT_EQ(loaded.scene.textures.at(0).image, 1U);
+  EXPECT_EQ(loaded.scene.textures.at(1).image, 0U);
 }
 
 }  // namespace

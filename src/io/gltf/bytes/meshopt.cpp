@@ -113,6 +113,11 @@ std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std:
                               .stride = description.stride,
                               .mode = description.mode};
   if (reinterpret_cast<MicrotraceDecodeMeshopt>(function.address)(&job, result.data()) == 0) {
+    if (description.mode == microtrace_meshopt_attributes && bytes->starts_with('\xa1')) {
+      asset.fail(*at,
+                 "holds attributes of version 1, which only KHR_meshopt_compression allows; "
+                 "compress them by version 0");
+    }
     asset.fail(*at, "holds invalid data for its mode, count and byteStride");
   }
   if (description.filter == "OCTAHEDRAL") decode_octahedral(result, description.stride);

@@ -102,6 +102,7 @@ constexpr Extension harmless_row(string_view name) {
 
 constexpr Extension kList[] = {
     harmless_row("AGI_articulations"),
+    harmless_row("CESIUM_RTC"),
     harmless_row("CESIUM_primitive_outline"),
     harmless_row("EXT_instance_features"),
     harmless_row("EXT_mesh_features"),

@@ -7,6 +7,7 @@
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/document/properties.hpp"
 #include "io/gltf/extensions/extensions.hpp"
+#include "io/gltf/material/textures.hpp"
 #include "io/image/decode/decode_image.hpp"
 #include "io/image/decode/image_header.hpp"
 #include "io/image/decode/ktx2_colors.hpp"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,14 +72,18 @@ bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   return false;
 }
 
+// What is drawn if an image can't be decoded.
+constexpr const char *kWhite = "its textures are white", *kOther = "its textures use other images";
+
 class ImageLoader {
  public:
   ImageLoader(Asset& asset, const BufferViews& views, const ResourceFolders& folders)
       : asset_(asset), views_(views), folders_(folders) {}
 
-  std::shared_ptr<const Image> load(const Element& at, ImageUse use) {
+  /// `remedy` tells what is drawn if the image can't be decoded.
+  std::shared_ptr<const Image> load(const Element& at, ImageUse use, const std::string& remedy) {
     if (is_missing(at)) {
-      asset_.tolerate(at.member("uri"), "names a file that does not exist; its textures are white");
+      asset_.tolerate(at.member("uri"), "names a file that does not exist; " + remedy);
       note_unread_resource(at.member("uri"), folders_);
       add_to_read_digest("missing image");  // the picture is another one
       return nullptr;
@@ -86,7 +92,7 @@ class ImageLoader {
     MemoryAccount file(memory_account().budget());
     const std::optional<std::string_view> bytes = bytes_of(at, storage, file);
     if (!bytes) {
-      asset_.warn(at, "is in a buffer that has no data; its textures are white");
+      asset_.warn(at, "is in a buffer that has no data; " + remedy);
       return nullptr;
     }
     bytes_ += bytes->size();
@@ -98,14 +104,16 @@ class ImageLoader {
     const bool is_right = uri == nullptr || !is_data_uri(uri->string()) ||
                           check_media_type(asset_, at.member("uri"), header.format);
     if (header.format == ImageFormat::unknown) {
-      asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; its textures are white");
+      asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; " + remedy);
       return nullptr;
     }
     if (header.state == ImageHeader::State::damaged) {
-      asset_.fail(at, "holds a damaged image: its header has no size");
+      if (remedy != kOther) asset_.fail(at, "holds a damaged image: its header has no size");
+      asset_.tolerate(at, "holds a damaged image, whose header has no size; " + remedy);
+      return nullptr;
     }
     if (header.state == ImageHeader::State::cut_off) {
-      asset_.tolerate(at, "holds an image that is truncated; its textures are white");
+      asset_.tolerate(at, "holds an image that is truncated; " + remedy);
       return nullptr;
     }
     const std::string_view type = declared_type(at);
@@ -115,7 +123,7 @@ class ImageLoader {
     }
     if (type != media_type(header.format)) check_extension(at, header.format);
     if (header.format == ImageFormat::ktx2) check_ktx2(at, header, *bytes, use);
-    return use.is_wanted() ? decode(at, header, *bytes) : nullptr;
+    return use.is_wanted() ? decode(at, header, *bytes, remedy) : nullptr;
   }
 
  private:
@@ -172,7 +180,7 @@ class ImageLoader {
   }
 
   std::shared_ptr<const Image> decode(const Element& at, const ImageHeader& header,
-                                      std::string_view bytes) {
+                                      std::string_view bytes, const std::string& remedy) {
     pixels_ += std::uint64_t{header.width} * header.height;
     if (pixels_ > kMaxTexturePixels) {
       asset_.fail(at, "brings the images to more than 2^28 pixels, the limit", ErrorKind::limit);
@@ -180,7 +188,7 @@ class ImageLoader {
     DecodedImage decoded = decode_image(bytes);
     if (decoded.no_module) {
       add_to_read_digest("without decoder");  // the picture is another one
-      asset_.warn(at, "can't be decoded, so its textures are white: " + decoded.complaint);
+      asset_.warn(at, "can't be decoded, so " + remedy + ": " + decoded.complaint);
       return nullptr;
     }
     if (decoded.too_large) {
@@ -188,7 +196,7 @@ class ImageLoader {
                   ErrorKind::limit);
     }
     if (!decoded.image) {
-      asset_.tolerate(at, "can't be decoded, so its textures are white: " + decoded.complaint);
+      asset_.tolerate(at, "can't be decoded, so " + remedy + ": " + decoded.complaint);
       return nullptr;
     }
     if (!decoded.complaint.empty()) {
@@ -229,12 +237,35 @@ std::vector<ImageUse> image_uses(std::span<const Material> materials,
 
 std::vector<std::shared_ptr<const Image>> load_images(Asset& asset, const BufferViews& views,
                                                       const ResourceFolders& folders,
-                                                      const std::vector<ImageUse>& uses) {
+                                                      std::vector<ImageUse> uses,
+                                                      std::vector<Texture>& textures) {
+  std::vector<std::vector<std::uint32_t>> choices;
+  for (const JsonValue& json : asset.array("textures")) choices.push_back(images_of(json));
+  std::vector<const char*> remedies(uses.size(), kWhite);
+  for (const auto& images : choices)
+    for (std::size_t k = 0; k + 1 < images.size(); ++k) remedies[images[k]] = kOther;
+  for (const auto& images : choices)
+    if (!images.empty()) remedies[images.back()] = kWhite;
   ImageLoader loader(asset, views, folders);
-  std::vector<std::shared_ptr<const Image>> images;
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    images.push_back(loader.load(asset.element("images", i), uses[i]));
+  std::vector<std::shared_ptr<const Image>> images(uses.size());
+  const auto load = [&](std::size_t i) {
+    images[i] = loader.load(asset.element("images", i), uses[i], remedies[i]);
+  };
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (uses[i].is_wanted()) load(i);
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    std::optional<std::uint32_t>& image = textures[i].image;
+    for (const std::uint32_t next : choices[i]) {
+      if (!image || images[*image] || !uses[*image].is_wanted()) break;
+      const ImageUse use = uses[*image];
+      image = next;
+      if (uses[next].is_wanted()) continue;
+      uses[next] = use;
+      load(next);
+    }
   }
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (!uses[i].is_wanted()) load(i);
   return images;
 }
 

@@ -30,11 +30,14 @@ struct ImageUse {
                                                std::size_t images, SurfaceDetail detail);
 
 /// Returns the decoded pixels of each wanted image. The result is null for an image that is not
-/// wanted or can't be decoded. Examines all images. Warns about unsupported formats. Throws the
+/// wanted or can't be decoded. Changes textures whose images can't be decoded to other images that
+/// they have. Examines all images. Warns about unsupported formats. Throws the
 /// errors of read_resource, and Error: invalid_scene for a damaged header or, in a wanted image,
 /// damaged data; limit if the wanted images have more than kMaxTexturePixels together.
-[[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(
-    Asset& asset, const BufferViews& views, const ResourceFolders& folders,
-    const std::vector<ImageUse>& uses);
+[[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(Asset& asset,
+                                                                    const BufferViews& views,
+                                                                    const ResourceFolders& folders,
+                                                                    std::vector<ImageUse> uses,
+                                                                    std::vector<Texture>& textures);
 
 }  // namespace microtrace::io::gltf

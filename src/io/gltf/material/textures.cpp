@@ -31,23 +31,27 @@ Sampler make_sampler(const JsonValue& json) {
   return sampler;
 }
 
-std::optional<std::uint32_t> image_of(const JsonValue& texture) {
+}  // namespace
+
+std::vector<std::uint32_t> images_of(const JsonValue& texture) {
   const std::array<const JsonValue*, 3> sources = {
       extension(texture, "EXT_texture_webp"), extension(texture, "KHR_texture_basisu"), &texture};
+  std::vector<std::uint32_t> images;
   for (const JsonValue* source : sources) {
-    if (source != nullptr && source->find("source") != nullptr) return index(*source, "source");
+    if (source != nullptr && source->find("source") != nullptr)
+      images.push_back(index(*source, "source"));
   }
-  return std::nullopt;
+  return images;
 }
-
-}  // namespace
 
 std::vector<Texture> make_textures(Asset& asset) {
   std::vector<Texture> textures;
   for (const JsonValue& json : asset.array("textures")) {
     Texture texture{.name = name_of(json)};
-    texture.image = image_of(json);
-    if (!texture.image) {
+    const std::vector<std::uint32_t> images = images_of(json);
+    if (!images.empty()) {
+      texture.image = images[0];
+    } else {
       asset.warn(asset.element("textures", textures.size()),
                  "has no image in PNG, JPEG, WebP or KTX2; it is white");
     }

@@ -5,13 +5,17 @@
 
 #include <microtrace/texture.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace microtrace::io::gltf {
 
-/// Returns all textures in file order. If a texture has several images, WebP (EXT_texture_webp)
-/// takes precedence over KTX2 (KHR_texture_basisu), and KTX2 over PNG and JPEG. Warns about
-/// textures without an image.
+/// Returns the images of a texture in the order of precedence: WebP (EXT_texture_webp), KTX2
+/// (KHR_texture_basisu), PNG or JPEG.
+[[nodiscard]] std::vector<std::uint32_t> images_of(const JsonValue& texture);
+
+/// Returns all textures in file order, each with the first of its images. Warns about textures
+/// without an image.
 [[nodiscard]] std::vector<Texture> make_textures(Asset& asset);
 
 }  // namespace microtrace::io::gltf

@@ -81,7 +81,7 @@ struct GltfFile::Content {
         materials(needed_materials()),
         textures(gltf::make_textures(asset)),
         surfaces(made_surfaces()),
-        images(gltf::load_images(asset, views, folders, image_uses())),
+        images(gltf::load_images(asset, views, folders, image_uses(), textures)),
         instances(asset, model, reader) {
     gltf::warn_of_ignored_features(asset, detail);
     if (!container.is_aligned) {
