@@ -254,6 +254,23 @@ inline Lanes true_double_lanes(const Mask& mask) {
   return lanes;
 }
 
+/// Returns the lanes in which a comparison of float32 or integer vectors is true.
+template <int N, class Mask>
+inline Lanes true_lanes(const Mask& mask) {
+#if defined(__AVX512VL__)
+  if constexpr (N == 16) return _mm512_movepi32_mask(reinterpreted<__m512i>(mask));
+  if constexpr (N == 8) return _mm256_movepi32_mask(reinterpreted<__m256i>(mask));
+#elif defined(__AVX2__)
+  if constexpr (N == 8) return static_cast<Lanes>(_mm256_movemask_ps(reinterpreted<__m256>(mask)));
+#endif
+#if defined(__x86_64__)
+  if constexpr (N == 4) return static_cast<Lanes>(_mm_movemask_ps(reinterpreted<__m128>(mask)));
+#endif
+  Lanes lanes = 0;
+  for (int i = 0; i < N; ++i) lanes |= static_cast<Lanes>(lane(mask, i) != 0) << i;
+  return lanes;
+}
+
 /// Returns true if the result of a comparison is true in any lane.
 template <class Mask>
 inline bool any(const Mask& mask) {
@@ -262,17 +279,8 @@ inline bool any(const Mask& mask) {
   } else if constexpr (sizeof mask[0] == sizeof(double)) {
     return true_double_lanes<sizeof mask / sizeof(double)>(mask) != 0;
   } else {
-    constexpr int kSize = sizeof(mask) / sizeof(mask[0]);
-    auto lanes = mask[0];
-    for (int i = 1; i < kSize; ++i) lanes |= mask[i];
-    return lanes != 0;
+    return true_lanes<sizeof mask / sizeof(mask[0])>(mask) != 0;
   }
-}
-
-/// Returns the lanes in which a comparison of float32 or integer vectors is true.
-template <int N, class Mask>
-inline Lanes true_lanes(const Mask& mask) {
-  return less<N>(Float<N>{}, mask ? all<N>(1) : Float<N>{});
 }
 
 template <class Mask>

@@ -13,6 +13,7 @@ template <int N>
 struct SampledTriangles {
   Floats3<N> a, b, c, emission;
   Float<N> has_back, coverage;
+  Unsigned<N> id;
 
   template <int width>
   SampledTriangles(const TriangleLight* triangles, const TriangleChoices<width>& choices, int i) {
@@ -28,6 +29,7 @@ struct SampledTriangles {
     emission = select3(is_textured, load3<N>(choices.emission, i),
                        Floats3<N>{columns[9], columns[10], columns[11]});
     has_back = columns[12];
+    id = reinterpreted<Unsigned<N>>(columns[13]);
     coverage = is_textured ? load<N>(choices.coverage + i) : all<N>(1);
   }
 };
@@ -40,6 +42,8 @@ void sample_triangles_from(const TriangleLight* triangles, const TriangleChoices
   using D = Double<N>;
   using V = Floats3<N>;
   using W = Doubles3<N>;
+  const auto is_selected = load<N>(choices.selected + i) != 0;
+  if (!any(is_selected)) return;
   const SampledTriangles<N> t(triangles, choices, i);
   const V weights =
       sampling::triangle_point<N>({load<N>(choices.u[0] + i), load<N>(choices.u[1] + i)});
@@ -59,7 +63,6 @@ void sample_triangles_from(const TriangleLight* triangles, const TriangleChoices
       selected_light<N>(to_light, distance, wi, light, pdf, widened<N>(points.probability + i));
   const auto is_finite = single_mask<N>((square > 0) & (square < __builtin_inf()));
   const auto faces = (cosine > 0) | ((cosine < 0) & (t.has_back != 0));
-  const auto is_selected = load<N>(choices.selected + i) != 0;
   const auto is_lit = is_selected & is_finite & faces & (t.coverage != 0) &
                       negated(is_zero(t.emission)) & (selected.pdf != 0);
   // Lanes that are not lit keep their samples.
@@ -74,9 +77,8 @@ void sample_triangles_from(const TriangleLight* triangles, const TriangleChoices
   put(samples.is_far, selected.is_far);
   put3(samples.light, selected.light);
   put(samples.pdf, selected.pdf);
-  for (int k = i; k < i + N; ++k)
-    samples.target[k] =
-        lane(is_lit, k - i) != 0 ? triangles[choices.triangle[k]].id : samples.target[k];
+  const Unsigned<N> target = is_lit ? t.id : load_bits<N>(samples.target + i);
+  __builtin_memcpy(samples.target + i, &target, sizeof target);
 }
 
 template <int N, int width>
