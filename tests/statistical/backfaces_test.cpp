@@ -264,13 +264,10 @@ TEST(Backfaces, GlassIsTheSame) {
   }
 }
 
-// Where the texture is 0, a surface with transmission is opaque. Where it is 1, it is glass.
-TEST(Backfaces, TransmissionTexturesSelectOpaqueParts) {
-  const auto pixels = [](Model model, const Material& material, Backfaces backfaces) {
-    model.scene.materials[kMatt] = material;
-    const Shot shot{.samples = 8, .max_depth = 8, .backfaces = backfaces};
-    return pixels_of(shoot(model.scene, model.camera, shot));
-  };
+/// Returns one-sided rooms and boxes of the material kMatt: a room that the camera is in, a box
+/// between the light and what the camera sees, and the same inside a box that is closed from
+/// outside.
+std::array<Model, 3> one_sided_models() {
   Model room;
   room.scene.objects.clear();
   room.scene.environment = Environment{.content = Studio{}};
@@ -281,22 +278,53 @@ TEST(Backfaces, TransmissionTexturesSelectOpaqueParts) {
   shadow.add(box({0, 2, 0}, Vec3(0.5F), false), kMatt);
   shadow.camera.pose.position.y = 1.2;
   shadow.add_light(DirectionalLight{.direction = {0, -1, 0}, .intensity = 3});
-  Model interior = shadow;  // of a box that is closed from outside
+  Model interior = shadow;
   interior.add(box({0, 0, 0}, Vec3(3), false), kMatt);
-  for (Model model : {room, shadow, interior}) {
-    for (const bool is_glass : {false, true}) {
-      const std::uint8_t gray = is_glass ? 255 : 0;
-      model.scene.images = {std::make_shared<const Image>(
-          Image{.width = 1, .height = 1, .channels = 1, .samples = std::vector{gray}})};
-      model.scene.textures = {{.image = 0}};
-      Material plain = model.scene.materials[kMatt];
-      Material textured = plain;
-      if (is_glass) plain.transmission = Transmission{.factor = 1};
-      textured.transmission = Transmission{.factor = 1, .texture = TextureUse{}};
-      for (const Backfaces backfaces : {Backfaces::pass, Backfaces::occlude}) {
-        EXPECT_EQ(pixels(model, textured, backfaces), pixels(model, plain, backfaces)) << is_glass;
-      }
-    }
+  return {room, shadow, interior};
+}
+
+/// Expects that surfaces with a texture of this texel look like surfaces without one.
+void expect_same_pixels(Model model, const Material& textured, const Material& plain,
+                        std::uint8_t texel) {
+  const auto pixels = [&](const Material& material, Backfaces backfaces) {
+    model.scene.materials[kMatt] = material;
+    const Shot shot{.samples = 8, .max_depth = 8, .backfaces = backfaces};
+    return pixels_of(shoot(model.scene, model.camera, shot));
+  };
+  model.scene.images = {std::make_shared<const Image>(
+      Image{.width = 1, .height = 1, .channels = 4, .samples = std::vector(4, texel)})};
+  model.scene.textures = {{.image = 0}};
+  for (const Backfaces backfaces : {Backfaces::pass, Backfaces::occlude})
+    EXPECT_EQ(pixels(textured, backfaces), pixels(plain, backfaces)) << int{texel};
+}
+
+// Where the texture is 0, a surface with transmission is opaque. Where it is 1, it is glass.
+TEST(Backfaces, TransmissionTexturesSelectOpaqueParts) {
+  for (const Model& model : one_sided_models()) {
+    Material plain = model.scene.materials[kMatt], textured = plain;
+    textured.transmission = Transmission{.factor = 1, .texture = TextureUse{}};
+    expect_same_pixels(model, textured, plain, 0);
+    plain.transmission = Transmission{.factor = 1};
+    expect_same_pixels(model, textured, plain, 255);
+  }
+}
+
+// The same with paper instead of glass, and with both.
+TEST(Backfaces, DiffuseTransmissionTexturesSelectOpaqueParts) {
+  for (const Model& model : one_sided_models()) {
+    const Material opaque = model.scene.materials[kMatt];
+    Material paper = opaque, textured = opaque;
+    paper.diffuse_transmission = DiffuseTransmission{.factor = 0.7F};
+    textured.diffuse_transmission = DiffuseTransmission{.factor = 0.7F, .texture = TextureUse{}};
+    expect_same_pixels(model, textured, opaque, 0);
+    expect_same_pixels(model, textured, paper, 255);
+    Material none = opaque;
+    none.diffuse_transmission = DiffuseTransmission{.factor = 0};
+    expect_same_pixels(model, none, opaque, 255);
+    textured.transmission = Transmission{.factor = 1, .texture = TextureUse{}};
+    expect_same_pixels(model, textured, opaque, 0);
+    textured.diffuse_transmission->texture.reset();
+    expect_same_pixels(model, textured, paper, 0);
   }
 }
 

@@ -35,6 +35,10 @@ bool transmits(const Material& m) {
   return m.transmission && m.transmission->factor > 0;
 }
 
+bool transmits_diffusely(const Material& m) {
+  return m.diffuse_transmission && m.diffuse_transmission->factor > 0;
+}
+
 /// True if light passes the back regardless of options, except where a texture makes the surface
 /// opaque. A path that enters and leaves one-sided thin glass crosses one wall instead of two, just
 /// as camera rays do.
@@ -73,14 +77,17 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
     look.has_constant_emission = look[MaterialTexture::emissive].map == nullptr &&
                                  material.alpha_mode == AlphaMode::opaque && !material.unlit;
-    const bool may_have_open_back =
-        !has_back(material) && !look.is_emissive() && !material.diffuse_transmission;
-    look.has_open_back = may_have_open_back && !transmits(material);
+    const bool may_have_open_back = !has_back(material) && !look.is_emissive();
+    look.has_open_back =
+        may_have_open_back && !transmits(material) && !transmits_diffusely(material);
     look.has_open_opaque_parts =
-        may_have_open_back && transmits(material) && has_map(look[MaterialTexture::transmission]);
+        may_have_open_back && !look.has_open_back &&
+        (!transmits(material) || has_map(look[MaterialTexture::transmission])) &&
+        (!transmits_diffusely(material) || has_map(look[MaterialTexture::diffuse_transmission]));
     look.is_textured = std::ranges::any_of(look.slots, has_map);
     look.has_back = has_back(material);
-    look.is_opaque = !is_thin_glass(material) && material.alpha_mode == AlphaMode::opaque;
+    look.is_opaque = !is_thin_glass(material) && !look.has_open_opaque_parts &&
+                     material.alpha_mode == AlphaMode::opaque;
     has_textures_ |= look.is_textured;
     // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
     if (look.has_rare_textures() || material.anisotropy || encloses_medium(material)) return;
@@ -172,16 +179,22 @@ Vec4 Shading::base_color(const ShadingPoint& point) {
 
 float Shading::coverage(const ShadingPoint& point, bool from_camera) const {
   const Material& material = *point.look->material;
-  if (is_missing_back(point) &&
-      (from_camera || (is_thin_glass(material) && !is_opaque_part(point))))
+  if (is_missing_back(point) && (from_camera || (is_thin_glass(material) && !lacks_glass(point))))
     return 0;
   if (material.alpha_mode == AlphaMode::opaque) return 1;
   return coverage(material, base_color(point).w);
 }
 
-bool Shading::is_opaque_part(const ShadingPoint& point) {
+bool Shading::lacks_glass(const ShadingPoint& point) {
   const TextureSlot& slot = (*point.look)[MaterialTexture::transmission];
-  return slot.map != nullptr && slot.at(point.unfiltered()).x == 0;
+  return !transmits(*point.look->material) ||
+         (slot.map != nullptr && slot.at(point.unfiltered()).x == 0);
+}
+
+bool Shading::is_opaque_part(const ShadingPoint& point) {
+  const TextureSlot& slot = (*point.look)[MaterialTexture::diffuse_transmission];
+  return lacks_glass(point) && (!transmits_diffusely(*point.look->material) ||
+                                (slot.map != nullptr && slot.at(point.unfiltered()).w == 0));
 }
 
 float Shading::coverage(const Material& material, float alpha) {

@@ -72,7 +72,7 @@ struct TexturedMaterial {
   /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
   bool has_constant_emission = false;
   bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
-  /// As has_open_back, but only where the transmission texture is 0.
+  /// As has_open_back, but only where the textures of all transmission are 0.
   bool has_open_opaque_parts = false;
   /// True if constant_but_textures is set, the roughness is not given as glossiness, and the
   /// material is neither unlit nor emissive, except by a texture.
@@ -80,8 +80,10 @@ struct TexturedMaterial {
   bool is_textured = false;  ///< true if the material has textures
   /// True if the material has textures or an alpha mode, so that points differ.
   bool varies = false;
-  bool has_back = false;   ///< has_back(*material)
-  bool is_opaque = false;  ///< true if coverage() is 1 everywhere for rays other than camera rays
+  bool has_back = false;  ///< has_back(*material)
+  /// True if coverage() is 1 everywhere for rays other than camera rays, and there are no open
+  /// opaque parts.
+  bool is_opaque = false;
   /// The BSDF's input for white texels, if it depends on nothing but textures of kFrequent with
   /// shares_address on meshes without vertex colors.
   std::optional<BsdfInput> constant_but_textures{};
@@ -171,8 +173,7 @@ class Shading {
   /// The opacity of a visible side where the base color has this alpha.
   [[nodiscard]] static float coverage(const Material& material, float alpha);
 
-  /// True if coverage() is 1 everywhere on all materials, from both sides, for rays other than
-  /// camera rays.
+  /// True if TexturedMaterial::is_opaque is true for the materials of all objects.
   [[nodiscard]] bool all_cover() const { return all_cover_; }
 
   /// True if light arrives through the surface on the point's side when backs pass light. This is
@@ -245,7 +246,10 @@ class Shading {
   [[nodiscard]] static Vec4 base_color(const ShadingPoint& point);
   void find_open_fronts();
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
-  /// True if the transmission texture is 0 at the point.
+  /// True if the surface transmits no light at the point, or only diffusely, because it has no
+  /// transmission or the transmission texture is 0.
+  [[nodiscard]] static bool lacks_glass(const ShadingPoint& point);
+  /// True if the surface transmits no light at the point.
   [[nodiscard]] static bool is_opaque_part(const ShadingPoint& point);
 
   const Primitives& primitives_;
