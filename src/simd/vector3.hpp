@@ -160,6 +160,10 @@ inline auto greatest_component(const V& v) {
   return larger_of(larger_of(v.x, v.y), v.z);
 }
 template <class V>
+inline auto least_component(const V& v) {
+  return smaller_of(smaller_of(v.x, v.y), v.z);
+}
+template <class V>
 inline V least_components(const V& a, const V& b) {
   return {smaller_of(a.x, b.x), smaller_of(a.y, b.y), smaller_of(a.z, b.z)};
 }

@@ -112,6 +112,14 @@ TEST(AlbedoTables, NodesOfTheCoatingIntegrate) {
   }
 }
 
+RefractionLoss<1> loss_of(float roughness, float eta, float f0) {
+  return RefractionLoss<1>({.roughness = roughness,
+                            .eta = eta,
+                            .dielectric = {.f0 = f0, .f90 = 1},
+                            .least_f0 = f0,
+                            .most_f0 = f0});
+}
+
 // If everything that is not reflected is transmitted, the energy deficit is the energy that single
 // scattering does not return.
 TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
@@ -119,10 +127,9 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
   int count = 0;
   for (const float ior : {1.2F, 1.5F, 2.0F}) {
     const float r = (ior - 1) / (ior + 1);
-    const GreatestSchlick<1> dielectric{.f0 = r * r, .f90 = 1};
     for (const float roughness : {0.3F, 0.5F, 0.75F, 1.0F}) {
       for (const float eta : {ior, 1 / ior}) {
-        const RefractionLoss<1> loss(roughness, eta, dielectric);
+        const RefractionLoss<1> loss = loss_of(roughness, eta, r * r);
         const Ggx<1> ggx(roughness);
         for (const double theta : {0.1, 0.6, 1.0, 1.3}) {
           const Vec3 wo = direction(theta);
@@ -151,8 +158,7 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
           most = std::max(most, lost - got);
           rms += (got - lost) * (got - lost);
           ++count;
-          EXPECT_EQ(loss.above(wo.z),
-                    RefractionLoss<1>(roughness, 1 / eta, dielectric).below(wo.z));
+          EXPECT_EQ(loss.above(wo.z), loss_of(roughness, 1 / eta, r * r).below(wo.z));
         }
       }
     }
@@ -162,7 +168,7 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
 }
 
 TEST(AlbedoTables, MeanDeficitOfRoughGlass) {
-  const RefractionLoss<1> loss(0.7F, 1.5F, {.f0 = 0.04F, .f90 = 1});
+  const RefractionLoss<1> loss = loss_of(0.7F, 1.5F, 0.04F);
   const double above = integral(200, [&](const Vec3& w) { return loss.above(w.z) * w.z; }) / kPi;
   const double below = integral(200, [&](const Vec3& w) { return loss.below(w.z) * w.z; }) / kPi;
   EXPECT_NEAR(loss.mean_above(), above, 1e-3 * above);

@@ -173,6 +173,49 @@ TEST(Furnace, Glass) {
   expect_white("a body of air", glass, {}, 0.02);
 }
 
+// What layers reflect of the light from inside stays inside. Losses remain on rough glass.
+TEST(Furnace, GlassUnderLayers) {
+  const Layers layers[] = {{.coat = 1},
+                           {.coat = 0.7F, .coat_roughness = 0.3F},
+                           {.sheen = Vec3(1), .sheen_roughness = 1},
+                           {.sheen = Vec3(1), .sheen_roughness = 0.5F, .coat = 1}};
+  for (Layers l : layers) {
+    for (const float transmission : {0.0F, 0.5F, 1.0F}) {
+      Parameters glass = kWhite;
+      glass.transmission = transmission;
+      l.side = LayerSide::above;
+      glass.eta = 1.5F;
+      expect_white("glass under layers", glass, l, 0.03, 0.3, 1.013);
+      l.side = LayerSide::below;
+      glass.eta = 1 / 1.5F;
+      expect_white("glass under layers from within", glass, l, 0.08);
+      glass.roughness = 0.05F;
+      for (const double theta : {0.1, 0.5, 0.7, 0.9})
+        EXPECT_NEAR(furnace(glass, l, direction(theta), 1U << 14U).x, 1, 0.004) << theta;
+    }
+  }
+}
+
+// Glass whose reflectance is not that of its index of refraction, or depends on the azimuth.
+TEST(Furnace, UnusualGlass) {
+  Parameters glass = kWhite;
+  glass.transmission = 1;
+  glass.film = ThinFilm<1>{};
+  glass.eta = 1.5F;
+  expect_white("glass under a film", glass, {}, 0.04);
+  glass.eta = 1 / 1.5F;
+  expect_white("glass under a film from within", glass, {}, 0.14);
+  glass.film.reset();
+  glass.dielectric.f0 = Vec3(0.3F);
+  glass.eta = 1.5F;
+  expect_white("mirroring glass", glass, {}, 0.18);
+  glass.dielectric.f0 = Vec3(0.04F);
+  glass.anisotropy = 0.5F;
+  expect_white("brushed glass", glass, {}, 0.08);
+  glass.eta = 1 / 1.5F;
+  expect_white("brushed glass from within", glass, {}, 0.31);
+}
+
 TEST(Furnace, MixturesOfMetalAndDielectric) {
   Parameters p = kWhite;
   for (const float metallic : {0.1F, 0.5F, 0.9F}) {

@@ -59,6 +59,11 @@ std::vector<Example> surfaces() {
     result.push_back({"layers on a wall", wall, both});
     result.push_back({"layers on glass", glass, above});
     result.push_back({"glass under layers", out, below});
+    Parameters half = glass, half_out = out;
+    half.transmission = half_out.transmission = 0.4F;
+    half.diffuse_transmission = half_out.diffuse_transmission = 0.5F;
+    result.push_back({"layers on half-transmitting glass", half, above});
+    result.push_back({"half-transmitting glass under layers", half_out, below});
     Parameters mixed = wall;
     mixed.metallic = 0.4F;
     Layers smooth_cloth = cloth;

@@ -239,8 +239,12 @@ TEST(TableErrors, RefractionLoss) {
                        : part < 0 ? critical * (1 + part) * (1 + part)
                                   : critical + (1 - critical) * part * part;
       const double eta = within ? inverse : 1 / inverse, r = (eta - 1) / (eta + 1);
-      const RefractionLoss<1> loss(static_cast<float>(roughness), static_cast<float>(eta),
-                                   {.f0 = static_cast<float>(r * r), .f90 = 1});
+      const auto f0 = static_cast<float>(r * r);
+      const RefractionLoss<1> loss({.roughness = static_cast<float>(roughness),
+                                    .eta = static_cast<float>(eta),
+                                    .dielectric = {.f0 = f0, .f90 = 1},
+                                    .least_f0 = f0,
+                                    .most_f0 = f0});
       errors.add(loss.above(static_cast<float>(z)),
                  tables::refraction_loss(tables::alpha_of(roughness), z, eta, points));
     }

@@ -44,13 +44,12 @@ class BaseBsdf {
   using FeaturesType = typename Parts::FeaturesType;
   using Microfacets = typename Parts::Microfacets;
 
-  /// wo.z must be positive. `coating` is the surface's coating if it is on both sides, otherwise
-  /// null.
+  /// wo.z must be positive. `coatings` must outlive this object.
   BaseBsdf(const FeaturesType& features, const Surface<N>& surface, const Microfacets& microfacets,
-           const Coating<N>* coating, const V& wo);
+           const Coatings<N>& coatings, const V& wo);
 
   /// `h` must be half_vector(wi).
-  [[nodiscard]] Evaluation<N> evaluate(const Coating<N>* coating, const V& wi, const V& h) const;
+  [[nodiscard]] Evaluation<N> evaluate(const V& wi, const V& h) const;
 
   /// The unit half vector of wo and wi. A wi below the surface is first mirrored to the upper side.
   [[nodiscard]] V half_vector(const V& wi) const {
@@ -71,7 +70,8 @@ class BaseBsdf {
   /// The fractions of light that a microfacet reflects, and that enter the dielectric.
   struct Shares {
     V reflected, entering;
-    F diffuse;  ///< reaches the diffuse part; 0 without Features::is_spec
+    F diffuse;   ///< reaches the diffuse part; 0 without Features::is_spec
+    F returned;  ///< the fraction of the entering light that a coating behind reflects
   };
 
   /// The energy that single scattering loses for F = 1, and the energy that the dielectric's
@@ -94,18 +94,32 @@ class BaseBsdf {
   [[nodiscard]] Left left(const Coating<N>* coating, const V& wi, const Shares& shares) const {
     return features_.is_spec ? Left{.f1 = F{}, .diffuse = shares.diffuse} : left(coating, wi);
   }
+  /// The coating on the upper or lower side; null if there is none.
+  [[nodiscard]] const Coating<N>* coating_above() const {
+    return kIsPlain ? nullptr : coatings_.above;
+  }
+  [[nodiscard]] const Coating<N>* coating_below() const {
+    return kIsPlain ? nullptr : coatings_.below;
+  }
+  /// True if light from the medium above meets a coating behind the surface. What the coating
+  /// reflects of this light stays above.
+  [[nodiscard]] bool is_coated_behind() const {
+    return features_.refracts && coating_above() == nullptr && coating_below() != nullptr;
+  }
   /// G2 / (4 z_o z_i) for a wi above the surface.
   [[nodiscard]] F visibility(const V& wi) const {
     return features_.is_spec ? ggx_.spec_visibility(wo_, wi) : ggx_.visibility(wo_, wi);
   }
 
-  [[nodiscard]] Evaluation<N> above(const Coating<N>* coating, const V& wi, const V& h) const;
-  [[nodiscard]] Evaluation<N> below(const Coating<N>* coating, const V& wi, const V& h) const;
-  void refract(const V& wi, Evaluation<N>& e) const;
+  [[nodiscard]] Evaluation<N> above(const V& wi, const V& h) const;
+  [[nodiscard]] Evaluation<N> below(const V& wi, const V& h) const;
+  void refract(const V& wi, const F& transmittance, Evaluation<N>& e) const;
   /// Removes the dielectric from the opaque part of a refracting surface where wo is in the denser
   /// medium: pigments that touch the medium reflect its light without a boundary in between. `here`
-  /// and `mean` are Left::diffuse for wo and on average.
-  void uncover_opaque_part(const Surface<N>& surface, const F& here, const F& mean);
+  /// and `mean` are Left::diffuse for wo and on average, and `mean_below` is the average below the
+  /// surface.
+  void uncover_opaque_part(const Surface<N>& surface, const F& here, const F& mean,
+                           const F& mean_below);
   /// Reflectances at normal incidence.
   struct HeadOn {
     V dielectric, metal;
@@ -129,14 +143,19 @@ class BaseBsdf {
   [[nodiscard]] V reflectance(const Schlick<N>& schlick, const F& cosine) const;
   /// The reflectance of metal and dielectric combined.
   [[nodiscard]] V reflectance(const F& cosine) const;
+  /// The fraction of the light through the microfacet with normal h that a coating behind the
+  /// surface reflects toward wi
+  [[nodiscard]] F returned(const V& wi, const V& h) const;
   /// The probability of sampling reflection, given a sampled microfacet normal.
   [[nodiscard]] F reflection_probability(const Shares& shares) const;
   /// Sets the dielectric's reflectance with the film and `parts`, and returns the approximate
   /// reflectance of metal and dielectric combined at normal incidence.
   V add_film(const F& roughness, HeadOn& parts);
-  /// The transmittance of the coating for wo or wi, whichever is smaller.
-  [[nodiscard]] F transmittance(const Coating<N>& coating, const V& wi) const {
-    return smaller_of(transmittance_, coating.transmittance(wi));
+  /// The transmittance of the coatings for wo and a wi on the side of `coating`, which may be null:
+  /// the smaller of both.
+  [[nodiscard]] F transmittance(const Coating<N>* coating, const V& wi) const {
+    return coating == nullptr ? transmittance_
+                              : smaller_of(transmittance_, coating->transmittance(wi));
   }
 
   FeaturesType features_;
@@ -149,13 +168,15 @@ class BaseBsdf {
   V diffuse_, multiple_;         ///< products of all factors that do not depend on wi
   F facet_probability_;          ///< probability of sampling a microfacet normal
   // The members below are set only if their feature is present.
-  F transmittance_;  ///< transmittance of the coating
+  Coatings<N> coatings_;
+  F transmittance_;  ///< transmittance of the coating above for wo; 1 if there is none
   Schlick<N> dielectric_, metal_;
   ThinFilm<N> film_;
   /// The dielectric with its film reflects like Schlick's term with these reflectances at normal
   /// incidence, for equidistant cosines in [0, 1].
   static constexpr int kFilmNodes = 9;
   F film_f0_[kFilmNodes];
+  F film_least_, film_most_;    ///< bounds of the reflectances with and without the film
   F least_square_, on_facets_;  ///< see dielectric_at()
   F metallic_, eta_;
   V diffuse_below_, multiple_below_, transmitted_;

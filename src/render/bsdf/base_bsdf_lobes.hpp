@@ -38,7 +38,7 @@ auto BaseBsdf<N, Parts>::incidence(const F& cosine) const -> Incidence {
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
   if (features_.is_spec) return spec_shares(angle_cosine);
-  if (!features_.transmits) return {reflectance(angle_cosine), all3<N>(0), F{}};
+  if (!features_.transmits) return {reflectance(angle_cosine), all3<N>(0), F{}, F{}};
   const auto [cosine, is_total] = incidence(angle_cosine);
   const auto is_opaque = is_zero(transmitted_);
   const V dielectric = reflectance(dielectric_, cosine);
@@ -57,7 +57,9 @@ auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
     const V covered = select3(is_total != 0, all3<N>(1), dielectric);
     reflected = greatest_components(V(reflected - bare_ * covered), none);
   }
-  return {reflected, select3((is_total != 0) | is_opaque, none, entering), F{}};
+  const V through = select3((is_total != 0) | is_opaque, none, entering);
+  return {reflected, through, F{},
+          is_coated_behind() ? F(1 - coating_below()->transmittance(cosine)) : F{}};
 }
 
 // fresnel_mix of KHR_materials_specular and rgb_mix of KHR_materials_iridescence, which equal the
@@ -69,29 +71,47 @@ auto BaseBsdf<N, Parts>::spec_shares(const F& angle_cosine) const -> Shares {
   const V dielectric = select3(is_total != 0, all3<N>(1), reflectance(dielectric_, cosine));
   const F left = 1 - greatest_component(dielectric);
   return {mixed(dielectric, reflectance(metal_, cosine), metallic_),
-          features_.transmits ? V(left * transmitted_) : all3<N>(0), left};
+          features_.transmits ? V(left * transmitted_) : all3<N>(0), left, F{}};
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::returned(const V& wi, const V& h) const -> F {
+  const F cosine = smaller_of(dot(wo_, h), all<N>(1));
+  const F along = larger_of(F(1 - (1 - cosine * cosine) / (eta_ * eta_)), F{});
+  const F toward = (square_root<N>(along) - cosine / eta_) * h.z;
+  const F z_o = toward + wo_.z / eta_, z_i = toward + wi.z / eta_;
+  const auto transmittance = [&](const F& z) {
+    return coating_below()->transmittance(smaller_of(z, all<N>(1)));
+  };
+  const F through = larger_of(transmittance(z_o), transmittance(z_i));
+  const F here = 2 / (wo_.z + ggx_.root(wo_)), there = 2 / (wi.z + ggx_.root(wi));
+  const F visibility = 0.25F * smaller_of(F(here / wi.z), F(there / wo_.z));
+  return (z_o > 0) & (z_i > 0) ? visibility * (1 - through) : F{};
 }
 
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::reflection_probability(const Shares& shares) const -> F {
-  const F reflected = luminance(shares.reflected), through = luminance(shares.entering);
+  const F entering = luminance(shares.entering), through = entering * (1 - shares.returned);
+  const F reflected = luminance(shares.reflected) + entering * shares.returned;
   const F sum = reflected + through;
   const auto is_shared = (sum > 0) & negated(is_zero(transmitted_));
   return is_shared ? reflected / sum : all<N>(1);
 }
 
 template <int N, class Parts>
-Evaluation<N> BaseBsdf<N, Parts>::above(const Coating<N>* coating, const V& wi, const V& h) const {
+Evaluation<N> BaseBsdf<N, Parts>::above(const V& wi, const V& h) const {
   const F d = ggx_.distribution(h);
   const Shares facet = shares(smaller_of(dot(wo_, h), all<N>(1)));
-  const Left there = left(coating, wi, facet);
+  const Left there = left(coating_above(), wi, facet);
   V single = facet.reflected * (d * visibility(wi));
-  if (coating != nullptr) single *= transmittance(*coating, wi);
+  const F transmittance = this->transmittance(coating_above(), wi);
+  single *= transmittance;
   V f = single + diffuse_ * there.diffuse + multiple_ * there.f1;
   F facets = facet_probability_, rest = 1 - facet_probability_;
+  if (is_coated_behind()) f += facet.entering * (d * returned(wi, h));
   if (features_.refracts) {
     const V bare = bare_diffuse_ + bare_kept_ * (1 - bare_through_ * there.diffuse);
-    f += lost_ * loss_.above(wi.z) + bare;
+    f += lost_ * (loss_.above(wi.z) * transmittance) + bare;
   }
   if (features_.transmits) {
     facets *= reflection_probability(facet);
@@ -101,21 +121,21 @@ Evaluation<N> BaseBsdf<N, Parts>::above(const Coating<N>* coating, const V& wi, 
 }
 
 template <int N, class Parts>
-Evaluation<N> BaseBsdf<N, Parts>::below(const Coating<N>* coating, const V& wi, const V& h) const {
+Evaluation<N> BaseBsdf<N, Parts>::below(const V& wi, const V& h) const {
   const V up = mirrored(wi);
-  Shares facet{all3<N>(0), all3<N>(0), F{}};
+  Shares facet{all3<N>(0), all3<N>(0), F{}, F{}};
   if (features_.is_spec || !features_.refracts) facet = shares(smaller_of(dot(wo_, h), all<N>(1)));
-  const Left there = left(coating, up, facet);
+  const Left there = left(coating_below(), up, facet);
+  const F transmittance = this->transmittance(coating_below(), up);
   V spread = diffuse_below_ * there.diffuse + multiple_below_ * there.f1;
-  if (features_.refracts) spread += lost_below_ * loss_.below(up.z);
+  if (features_.refracts) spread += lost_below_ * (loss_.below(up.z) * transmittance);
   Evaluation<N> e{spread * up.z, (1 - facet_probability_) * below_probability_ * kInversePi * up.z};
   if (features_.refracts) {
-    refract(wi, e);
+    refract(wi, transmittance, e);
     return e;
   }
   const F d = ggx_.distribution(h);
-  F single = d * visibility(up) * up.z;
-  if (coating != nullptr) single *= transmittance(*coating, up);
+  const F single = d * visibility(up) * up.z * transmittance;
   const auto is_opaque = is_zero(transmitted_);
   const F pdf =
       facet_probability_ * (1 - reflection_probability(facet)) * ggx_.reflected_pdf(wo_, d);
@@ -124,7 +144,7 @@ Evaluation<N> BaseBsdf<N, Parts>::below(const Coating<N>* coating, const V& wi, 
 }
 
 template <int N, class Parts>
-void BaseBsdf<N, Parts>::refract(const V& wi, Evaluation<N>& e) const {
+void BaseBsdf<N, Parts>::refract(const V& wi, const F& transmittance, Evaluation<N>& e) const {
   const V sum = wo_ + eta_ * wi;
   const F square = dot(sum, sum);
   V h = unit<N>(sum);
@@ -144,21 +164,21 @@ void BaseBsdf<N, Parts>::refract(const V& wi, Evaluation<N>& e) const {
   const auto refracts =
       (square > 0) & (cos_o > 0) & (cos_i < 0) & (seen < 1e30F) & negated(is_zero(transmitted_));
   const F pdf = facet_probability_ * (1 - reflection_probability(facet)) * seen;
-  e.value = select3(refracts, V(e.value + facet.entering * (seen * unmasked)), e.value);
+  e.value =
+      select3(refracts, V(e.value + facet.entering * (seen * unmasked * transmittance)), e.value);
   e.pdf = refracts ? e.pdf + pdf : e.pdf;
 }
 
 template <int N, class Parts>
-Evaluation<N> BaseBsdf<N, Parts>::evaluate(const Coating<N>* coating, const V& wi,
-                                           const V& h) const {
+Evaluation<N> BaseBsdf<N, Parts>::evaluate(const V& wi, const V& h) const {
   const auto is_above = wi.z > 0, is_below = wi.z < 0;
   Evaluation<N> e{all3<N>(0), F{}};
   if (any(is_above)) {
-    const Evaluation<N> up = above(coating, wi, h);
+    const Evaluation<N> up = above(wi, h);
     e = {select3(is_above, up.value, e.value), is_above ? up.pdf : e.pdf};
   }
   if (features_.transmits && any(is_below)) {
-    const Evaluation<N> down = below(coating, wi, h);
+    const Evaluation<N> down = below(wi, h);
     e = {select3(is_below, down.value, e.value), is_below ? down.pdf : e.pdf};
   }
   return e;

@@ -7,16 +7,19 @@ namespace microtrace::bsdf {
 
 template <int N, class Parts>
 BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
-                             const Microfacets& microfacets, const Coating<N>* coating, const V& wo)
+                             const Microfacets& microfacets, const Coatings<N>& coatings,
+                             const V& wo)
     : features_(features),
       wo_(wo),
       ggx_(microfacets),
       albedo_(ggx_),
       specular_{p.dielectric.f0 + p.metallic * (p.base_color - p.dielectric.f0),
                 p.dielectric.f90 + p.metallic * (1 - p.dielectric.f90)},
-      greatest_{greatest_component(p.dielectric.f0), p.dielectric.f90} {
+      greatest_{greatest_component(p.dielectric.f0), p.dielectric.f90},
+      coatings_(coatings) {
   const F least = all<N>(1e-6F), dielectric = 1 - p.metallic;
-  if (coating != nullptr) transmittance_ = coating->transmittance(wo);
+  const Coating<N>* coating = coating_above();
+  transmittance_ = coating == nullptr ? all<N>(1) : coating->transmittance(wo);
   V f0 = specular_.f0;
   HeadOn parts{p.dielectric.f0, p.base_color};
   if (features_.transmits || features_.has_film || features_.is_spec) {
@@ -35,14 +38,21 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   if (!features_.is_spec) mean = mean_left(coating), here = left(coating, wo);
   const F several = kInversePi / larger_of(mean.f1, least) * here.f1;
   multiple_ = multiply_scattered(p, f0, parts, white_mean.f1) * several;
+  // By reciprocity, diffuse transmission is divided by the mean of the side without layers.
+  F mean_below = mean.diffuse;
+  if (features_.refracts && coatings_.above != coatings_.below)
+    mean_below = mean_left(coating_below()).diffuse;
   const F mean_diffuse = larger_of(mean.diffuse, least);
   const F opaque = features_.transmits ? 1 - p.transmission : all<N>(1);
   const F diffuse = dielectric * opaque * kInversePi * here.diffuse / mean_diffuse;
   diffuse_ = diffuse * p.base_color;
   if (features_.transmits) {
     diffuse_ = ((1 - p.diffuse_transmission) * diffuse) * p.base_color;
-    diffuse_below_ = (p.diffuse_transmission * diffuse) * p.diffuse_transmission_color;
-    if (features_.refracts) uncover_opaque_part(p, here.diffuse, mean_diffuse);
+    const F through = p.diffuse_transmission * diffuse;
+    diffuse_below_ =
+        (through * smaller_of(all<N>(1), F(mean_diffuse / larger_of(mean_below, least)))) *
+        p.diffuse_transmission_color;
+    if (features_.refracts) uncover_opaque_part(p, here.diffuse, mean_diffuse, mean_below);
     add_transmission(p, f0, white_mean.f1, several);
   }
 
@@ -75,7 +85,8 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
 }
 
 template <int N, class Parts>
-void BaseBsdf<N, Parts>::uncover_opaque_part(const Surface<N>& p, const F& here, const F& mean) {
+void BaseBsdf<N, Parts>::uncover_opaque_part(const Surface<N>& p, const F& here, const F& mean,
+                                             const F& mean_below) {
   const F dielectric = 1 - p.metallic;
   const V none = all3<N>(0);
   const auto from_denser = p.eta < 1;
@@ -91,6 +102,7 @@ void BaseBsdf<N, Parts>::uncover_opaque_part(const Surface<N>& p, const F& here,
     // The diffuse reflection gets the rest.
     bare_through_ = from_denser ? p.eta * p.eta : F{};
     diffuse_below_ = select3(from_denser, V(bare_through_ * diffuse_below_), diffuse_below_);
+    bare_through_ *= smaller_of(all<N>(1), F(mean_below / mean));
     bare_ = from_denser ? dielectric * (1 - p.transmission) : F{};
     const F least = all<N>(1e-6F);
     const F kept = (1 - bare_through_ * here) / larger_of(F(1 - bare_through_ * mean), least);
@@ -147,9 +159,13 @@ void BaseBsdf<N, Parts>::add_transmission(const Surface<N>& p, const V& f0, cons
 
 template <int N, class Parts>
 void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
-  // There are no tables for films and anisotropic microfacets.
-  if (features_.has_film || features_.is_anisotropic) return;
-  loss_ = RefractionLoss<N>(p.roughness, eta_, greatest_);
+  const bool has_film = features_.has_film;
+  loss_ = RefractionLoss<N>({.roughness = p.roughness,
+                             .eta = eta_,
+                             .dielectric = greatest_,
+                             .least_f0 = has_film ? film_least_ : least_component(p.dielectric.f0),
+                             .most_f0 = has_film ? film_most_ : greatest_.f0,
+                             .anisotropy = features_.is_anisotropic ? p.anisotropy : F{}});
   const F through = loss_.through(), here = loss_.above(wo_.z) * kInversePi;
   const F entering = (1 - p.metallic) * p.transmission;
   // Light that never enters the volume is not tinted by the base color.
@@ -159,6 +175,13 @@ void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
   lost_ = select3(is_opaque, lost_, V(reflected * (here / loss_.mean_above())));
   lost_below_ =
       select3(is_opaque, lost_below_, V(transmitted_ * (through * here / loss_.mean_below())));
+  if (!is_coated_behind()) return;
+  F returned{};
+  for (int k = 0; k < static_cast<int>(kCoatingNodes); ++k) {
+    returned += kTables.coating_weight[k] * loss_.below(all<N>(kTables.coating_node[k])) *
+                (1 - coating_below()->transmittance_at_node(k));
+  }
+  lost_ += (returned / loss_.mean_above()) * lost_below_;
 }
 
 template <int N, class Parts>
@@ -176,6 +199,8 @@ auto BaseBsdf<N, Parts>::add_film(const F& roughness, HeadOn& parts) -> V {
   const F without = greatest_.f0;
   V dielectric = all3<N>(0), metal = all3<N>(0);
   greatest_.f0 = F{};
+  film_least_ = least_component(dielectric_.f0);
+  film_most_ = without;
   for (int k = 0; k < kFilmNodes; ++k) {
     const F cosine = all<N>(k == 0 ? kLeastCosine : static_cast<float>(k) / (kFilmNodes - 1));
     const F edge = Schlick<N>::edge(cosine);
@@ -187,6 +212,8 @@ auto BaseBsdf<N, Parts>::add_film(const F& roughness, HeadOn& parts) -> V {
     if (has_dielectric) {
       const V f0 = f0_with_film(dielectric_);
       if (k >= kFirstOfMean) dielectric += kWeight * f0;
+      film_least_ = smaller_of(film_least_, least_component(f0));
+      film_most_ = larger_of(film_most_, greatest_component(f0));
       film_f0_[k] += film_.share * (greatest_component(f0) - without);
     }
     greatest_.f0 += of_mean.value[k] * film_f0_[k];

@@ -31,7 +31,7 @@ struct AnisotropicParts {
 };
 
 /// A BaseBsdf below a sheen layer, which is below a clear coat. Refracting surfaces have layers
-/// only on the outside. These layers also absorb part of the light that comes from inside.
+/// only on the outside.
 ///
 /// With Features::is_spec, the layers are those of KHR_materials_clearcoat and KHR_materials_sheen:
 /// the coat's Fresnel term depends on wo only, which makes coated surfaces not reciprocal.
@@ -68,16 +68,17 @@ class Bsdf {
     else
       return AnisotropicGgx<N>(s.roughness, s.anisotropy, s.along);
   }
-  /// The coating that the base's energy compensation takes into account.
-  [[nodiscard]] const Coating<N>* base_coating() const {
-    return features_.layers == LayerSide::both && !features_.is_spec ? coating_ : nullptr;
+  /// The coatings through which the base is seen, unless the specification's formulas are used.
+  [[nodiscard]] Coatings<N> base_coatings() const {
+    if (features_.is_spec) return {};
+    return {features_.layers == LayerSide::below ? nullptr : coating_,
+            features_.layers == LayerSide::above ? nullptr : coating_};
   }
   /// True if there are layers on the side of wo.
   [[nodiscard]] bool has_layers_above() const {
     return features_.layers == LayerSide::both || features_.layers == LayerSide::above;
   }
   [[nodiscard]] Evaluation<N> evaluate(const V& wi, const V& h) const;
-  void absorb(const V& wi, V& value) const;
   void spec_absorb(const V& wi, V& value) const;
   void add_sheen(const V& wi, const V& h, Evaluation<N>& e) const;
   void add_coat(const V& wi, const V& h, Evaluation<N>& e) const;
@@ -90,8 +91,7 @@ class Bsdf {
   // otherwise.
   V sheen_;
   F coat_;
-  F coat_transmittance_;  // transmittance of the coat for wo
-  F transmittance_;       // transmittance of all layers for wo; set only if all layers are above
+  F coat_transmittance_;                    // transmittance of the coat for wo
   F sheen_probability_, coat_probability_;  // sampling probabilities
 };
 
@@ -101,13 +101,12 @@ Bsdf<N, Parts>::Bsdf(const FeaturesType& features, const Surface<N>& surface,
     : features_(features),
       wo_(wo),
       coating_(coating),
-      base_(features, surface, microfacets(surface), base_coating(), wo) {
+      base_(features, surface, microfacets(surface), base_coatings(), wo) {
   if (!has_layers_above()) return;
   sheen_ = surface.sheen;
   coat_ = surface.coat;
   coat_transmittance_ =
       features_.is_spec ? F(1 - coating->spec_coat_weight(wo)) : coating->coat_transmittance(wo);
-  if (features_.layers == LayerSide::above) transmittance_ = coating->transmittance(wo);
   // Samples layers in proportion to their approximate albedos, with a minimum probability.
   const F greatest = coating->greatest_sheen(), least = all<N>(0.1F);
   const F of_sheen = larger_of(F(0.5F * greatest * coating->sheen().albedo(wo.z)), least);
@@ -168,21 +167,9 @@ void Bsdf<N, Parts>::spec_absorb(const V& wi, V& value) const {
 }
 
 template <int N, class Parts>
-void Bsdf<N, Parts>::absorb(const V& wi, V& value) const {
-  if (features_.layers == LayerSide::none) return;
-  if (features_.is_spec) return spec_absorb(wi, value);
-  if (features_.layers == LayerSide::above) {
-    const F through = smaller_of(transmittance_, coating_->transmittance(wi));
-    value *= wi.z > 0 ? through : transmittance_;
-  } else if (features_.layers == LayerSide::below) {
-    value *= wi.z < 0 ? coating_->transmittance(mirrored(wi)) : all<N>(1);
-  }
-}
-
-template <int N, class Parts>
 Evaluation<N> Bsdf<N, Parts>::evaluate(const V& wi, const V& h) const {
-  Evaluation<N> e = base_.evaluate(base_coating(), wi, h);
-  absorb(wi, e.value);
+  Evaluation<N> e = base_.evaluate(wi, h);
+  if (features_.is_spec && features_.layers != LayerSide::none) spec_absorb(wi, e.value);
   if (!has_layers_above()) return e;
   e.pdf *= 1 - coat_probability_ - sheen_probability_;
   add_sheen(wi, h, e);

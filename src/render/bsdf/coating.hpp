@@ -66,6 +66,10 @@ class Coating {
   [[nodiscard]] F transmittance(const V& w) const {
     return coat_transmittance(w) * sheen_transmittance(w.z);
   }
+  /// The transmittance of all layers at this angle to the coat's normal and to that of the sheen.
+  [[nodiscard]] F transmittance(const F& cosine) const {
+    return coat_transmittance(cosine) * sheen_transmittance(cosine);
+  }
 
   /// The weight of the coat's reflection according to fresnel_coat of KHR_materials_clearcoat. The
   /// layers below have the remaining weight.
@@ -126,6 +130,14 @@ class Coating {
   Frame<N> coat_frame_;
   F node_transmittance_[kCoatingNodes];
   F deficit_f1_[kCoatingColumns], deficit_schlick_[kCoatingColumns];
+};
+
+/// The coatings on the two sides of a surface; null where there is none. Thin walls have the same
+/// coating on both sides, and refracting surfaces only on the outside.
+template <int N>
+struct Coatings {
+  const Coating<N>* above = nullptr;
+  const Coating<N>* below = nullptr;
 };
 
 }  // namespace microtrace::bsdf

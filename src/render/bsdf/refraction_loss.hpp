@@ -66,9 +66,16 @@ class RefractionLoss {
   /// Constructs a boundary without loss.
   RefractionLoss() = default;
 
-  /// `eta` is the index of refraction below the boundary divided by the index above. It must not be
-  /// 1.
-  RefractionLoss(const F& roughness, const F& eta, const GreatestSchlick<N>& dielectric);
+  /// What the loss depends on. The members after `dielectric` make the computed loss smaller where
+  /// it is less certain.
+  struct Boundary {
+    F roughness;
+    F eta;  ///< the index of refraction below divided by the index above; not 1
+    GreatestSchlick<N> dielectric;
+    F least_f0, most_f0;       ///< bounds of the reflectance at normal incidence of all channels
+    F anisotropy = all<N>(0);  ///< strength of anisotropy, which the tables lack
+  };
+  explicit RefractionLoss(const Boundary& boundary);
 
   /// The loss for light to or from a direction with |cos(theta)| = z above or below the surface.
   [[nodiscard]] F above(const F& z) const { return at(z, above_is_thinner_); }
@@ -116,8 +123,8 @@ void RefractionLoss<N>::add(const F& weight, const Int<N>& row) {
 }
 
 template <int N>
-RefractionLoss<N>::RefractionLoss(const F& roughness, const F& eta,
-                                  const GreatestSchlick<N>& dielectric) {
+RefractionLoss<N>::RefractionLoss(const Boundary& boundary) {
+  const auto& [roughness, eta, dielectric, least_f0, most_f0, anisotropy] = boundary;
   const F zero{}, one = all<N>(1);
   const auto above_is_thinner = eta > 1;
   above_is_thinner_ = above_is_thinner ? one : zero;
@@ -133,15 +140,20 @@ RefractionLoss<N>::RefractionLoss(const F& roughness, const F& eta,
     }
   }
   // The tables assume the reflectance that follows from the index of refraction. If the actual
-  // reflectance is f90 times as large, at least this fraction of the loss remains. Any other
-  // difference is subtracted, because its effect is unknown.
-  const F unsure = magnitude(F(dielectric.f0 - dielectric.f90 * r * r));
+  // reflectance is f90 times as large, at least this fraction of the loss remains. From the thinner
+  // side, microfacets lose more of the light that they reflect than of the light that they
+  // transmit, and from the denser side the reverse. Anisotropic microfacets lose more on average,
+  // but less in some directions, mainly on the thinner side.
+  const F sure = 1 - anisotropy, weight = dielectric.f90 * sure;
+  const F assumed = dielectric.f90 * r * r, some = all<N>(0.5F);
+  const F unsure_outside = some * larger_of(F(assumed - least_f0), zero);
+  const F unsure_within = some * larger_of(F(most_f0 - assumed), zero);
   constexpr auto weights = hat_weights<3, kColumns>();
   constexpr auto cubic = hat_weights<3, kHalf>();
   constexpr auto linear = hat_weights<1, kHalf>();
   for (int i = 0; i < kColumns; ++i) {
-    outside_[i] = clamped(F(dielectric.f90 * outside_[i] - unsure), zero, one);
-    within_[i] = clamped(F(dielectric.f90 * within_[i] - unsure), zero, one);
+    outside_[i] = clamped(F(weight * sure * outside_[i] - unsure_outside), zero, one);
+    within_[i] = clamped(F(weight * within_[i] - unsure_within), zero, one);
     mean_outside_ += weights.value[i] * outside_[i];
   }
   const F c = critical_;
