@@ -98,6 +98,17 @@ TEST(Media, WhiteBodiesVanishInTheFurnace) {
   }
 }
 
+// Light that has entered a body with a nearly opaque surface is reflected often before it leaves
+// the body. Few paths must not carry all of this light.
+TEST(Media, LightLeavesNearlyOpaqueBodies) {
+  Material body = scattering(glass_body(Vec3(0.001F), 0.5F), Vec3(1));
+  body.transmission->factor = 0.1F;
+  const Shot shot{.samples = 64, .max_depth = 256};
+  const Estimate light = estimate(ball_under_sky(body), kAcrossBall, shot, kSeeds);
+  EXPECT_LT(light.deviation, 0.0016);
+  EXPECT_NEAR(light.mean, 1, kFar * light.deviation + 0.01);
+}
+
 // A ball where float32 numbers are as far apart as the mean distance between scattering events. The
 // speck at the origin keeps the scene from being translated there.
 TEST(Media, WhiteBodyFarAwayVanishesInTheFurnace) {

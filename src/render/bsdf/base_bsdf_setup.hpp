@@ -58,10 +58,16 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
 
   // Samples lobes in proportion to their approximate albedos, with a minimum probability, since
   // directions that only the other lobe's tail finds would have enormous weights. The minimum
-  // falls with the albedo of dark lobes.
+  // falls with the albedo of dark lobes. From inside of a body, paths may meet the surface hundreds
+  // of times, and each time the minimum of a dark lobe gives the others a weight above 1.
+  const F most_rare = all<N>(0.1F);
+  const auto least_of = [&](const F& part) {
+    return features_.refracts ? clamped(F(2 * part), all<N>(0.01F), most_rare) : most_rare;
+  };
   F facets = luminance(f0 * (there.f1 - there.schlick)) + specular_.f90 * there.schlick;
   F spread = luminance(diffuse_) * mean_diffuse + luminance(multiple_) * mean.f1;
   if (features_.transmits) {
+    if (features_.refracts) facets *= 1 - bare_;
     facets += luminance(transmitted_) * here.diffuse;
     F down = luminance(diffuse_below_) * mean_diffuse + luminance(multiple_below_) * mean.f1;
     if (features_.refracts) {
@@ -71,14 +77,16 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
     spread /= kInversePi;
     down /= kInversePi;
     spread += down;
-    const F share = clamped(F(down / spread), all<N>(0.1F), all<N>(0.9F));
+    const F part = down / spread, share = clamped(part, least_of(part), F(1 - least_of(1 - part)));
     below_probability_ = down > 0 ? share : F{};
   } else {
     spread /= kInversePi;
   }
   const F rarest = spread > (kIsPlain ? 0.01F : 0.002F) ? all<N>(0.1F)
                                                         : smaller_of(F(10 * spread), all<N>(0.02F));
-  const F share = clamped(F(facets / (facets + spread)), all<N>(0.05F), F(1 - rarest));
+  const F part = facets / (facets + spread);
+  const F least_facets = features_.refracts ? least_of(part) : all<N>(0.05F);
+  const F share = clamped(part, least_facets, F(1 - rarest));
   auto is_matte = is_zero(f0) & (specular_.f90 == 0);
   if (features_.transmits) is_matte = is_matte & is_zero(transmitted_);
   facet_probability_ = is_matte ? F{} : spread > 0 ? share : all<N>(1);

@@ -19,7 +19,7 @@ void finish_guided_from(float most_survival, ScatterLanes& lanes, int i) {
     const F wanted = load<N>(lanes.is_smooth + i) != 0
                          ? all<N>(1)
                          : guided_survival_of<N>(value / own, load<N>(lanes.brightness + i));
-    const F survival = smaller_of(wanted, all<N>(most_survival));
+    const F survival = limited_survival<N>(wanted, next, most_survival);
     survives = survives & (load<N>(lanes.chances[1] + i) < survival);
     next = next / survival;
   }

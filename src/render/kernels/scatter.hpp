@@ -99,7 +99,7 @@ class Vertices {
     }
     auto survives = (e.pdf > 0) & is_consistent(wi, local.z);
     if (setup.most_survival < 1) {
-      const F survival = smaller_of(survival_of<N>(next), all<N>(setup.most_survival));
+      const F survival = limited_survival<N>(survival_of<N>(next), next, setup.most_survival);
       survives = survives & (chances.y < survival);
       next = next / survival;  // not by its reciprocal, which may overflow
     }

@@ -13,6 +13,15 @@ Float<N> survival_of(const Floats3<N>& throughput) {
   return 2 * greatest_component(throughput);
 }
 
+/// Limits survival probabilities to `most`, so that paths between white surfaces end. Each time,
+/// the throughput of such a path grows. Paths that survived often would be rare and very bright, so
+/// paths with a great throughput survive certainly.
+template <int N>
+Float<N> limited_survival(const Float<N>& wanted, const Floats3<N>& throughput, float most) {
+  constexpr float kGreat = 4;
+  return greatest_component(throughput) > kGreat ? all<N>(1) : smaller_of(wanted, all<N>(most));
+}
+
 /// The survival probability of a path with this throughput, if it had been sampled by the BSDF
 /// only. It is in proportion to the light that the path is expected to find, not to the throughput,
 /// which is small in the directions that the guide prefers (J. Vorba and J. Křivánek,
