@@ -1,20 +1,16 @@
 #include "base/memory_account.hpp"
-#include "base/start_threads.hpp"
+#include "denoise/filters.hpp"
 #include "denoise/library.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/denoise.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/path.hpp>
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <exception>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <variant>
@@ -24,10 +20,6 @@
 
 namespace microtrace {
 namespace {
-
-/// The library divides larger pictures into parts, so that it needs no more memory than this. The
-/// limit is constant, because it affects the result.
-constexpr std::uint64_t kMostMegabytes = 1000;
 
 /// The memory for denoising a picture. That of the library was measured with versions 2.3.2 and
 /// 2.5.1.
@@ -58,104 +50,15 @@ std::vector<Vec3> vectors_of(const Film& film, SampledAov aov) {
   return vectors;
 }
 
-/// Passes calls of the library on to a progress function, whose exceptions must not propagate
-/// through the library's frames.
-struct ProgressMonitor {
-  const std::function<bool(double)>& progress;
-  std::atomic<bool> is_canceled = false;
-  std::exception_ptr thrown{};
-
-  static bool goes_on(void* context, double /*share*/) {
-    auto& self = *static_cast<ProgressMonitor*>(context);
-    try {
-      if (self.is_canceled || self.progress(1)) return !self.is_canceled;
-    } catch (...) {
-      self.thrown = std::current_exception();
-    }
-    self.is_canceled = true;
-    return false;
-  }
-};
-
-/// The images of a picture, in rows of its width.
-struct Images {
-  std::vector<Vec3> color, albedo, normal;
-};
-
-struct NamedImage {
-  const char* name;
-  std::vector<Vec3>& pixels;
-};
-
-/// Runs the library's filters on images of one size.
-class Filters {
- public:
-  /// The arguments must outlive this object.
-  Filters(const OidnFunctions& functions, ImageSize size, const RenderOptions& options)
-      : f_(functions), size_(size), monitor_{.progress = options.progress} {
-    // The library ends the process if the system refuses a thread.
-    const unsigned wanted = options.threads != 0 ? options.threads : default_threads();
-    device_ = oidn::open_device(f_, can_start_threads(wanted) ? wanted : 1);
-  }
-
-  /// Replaces the colors by denoised ones. The features must be free of noise.
-  void filter_colors(Images& images) {
-    run({{"color", images.color}, {"albedo", images.albedo}, {"normal", images.normal}});
-  }
-
-  /// Replaces a feature, the library's "albedo" or "normal", by a denoised one.
-  void filter_feature(const char* name, std::vector<Vec3>& pixels) { run({{name, pixels}}); }
-
- private:
-  /// Replaces the first image. The others are its guides.
-  void run(std::initializer_list<NamedImage> images) {
-    const oidn::Filter filter(f_.new_filter(device_.get(), "RT"), {&f_});
-    const auto set = [&](const char* name, std::vector<Vec3>& pixels) {
-      f_.set_shared_filter_image(filter.get(), name, pixels.data(), oidn::kFloat3, size_.width,
-                                 size_.height, 0, 0, 0);
-    };
-    for (const auto& [name, pixels] : images) set(name, pixels);
-    set("output", images.begin()->pixels);
-    if (images.size() > 1) {
-      f_.set_filter_bool(filter.get(), "hdr", true);
-      f_.set_filter_bool(filter.get(), "cleanAux", true);
-    }
-    f_.set_filter_int(filter.get(), "maxMemoryMB", static_cast<int>(kMostMegabytes));
-    if (monitor_.progress) {
-      f_.set_filter_progress_monitor_function(filter.get(), ProgressMonitor::goes_on, &monitor_);
-    }
-    f_.commit_filter(filter.get());
-    f_.execute_filter(filter.get());
-    check();
-  }
-
-  /// Throws the error of the last filter, if it failed.
-  void check() {
-    if (monitor_.thrown) std::rethrow_exception(monitor_.thrown);
-    const char* message = nullptr;
-    const int error = f_.get_device_error(device_.get(), &message);
-    if (error == 0) return;
-    const ErrorKind kind = error == oidn::kCanceled      ? ErrorKind::canceled
-                           : error == oidn::kOutOfMemory ? ErrorKind::limit
-                                                         : ErrorKind::internal;
-    throw Error(kind, "", std::string("denoising failed: ") + message);
-  }
-
-  const OidnFunctions& f_;
-  ImageSize size_;
-  ProgressMonitor monitor_;
-  oidn::Device device_;
-};
-
-/// Returns true if the color equals all colors at most this many pixels away, which noise would
-/// change.
-bool is_uniform(const Film& film, std::uint32_t x, std::uint32_t y) {
+/// Returns true if the value at a pixel equals all values at most this many pixels away, which
+/// noise would change. `row_of` returns a row of the values.
+bool is_uniform(ImageSize size, const auto& row_of, std::uint32_t x, std::uint32_t y) {
   constexpr std::uint32_t kReach = 2;
-  const auto [width, height] = film.size();
-  const std::uint32_t x0 = std::max(x, kReach) - kReach, x1 = std::min(x + kReach + 1, width);
-  for (std::uint32_t v = std::max(y, kReach) - kReach; v < std::min(y + kReach + 1, height); ++v) {
-    const std::span<const Vec3> row = film.row(v).subspan(x0, x1 - x0);
-    if (std::ranges::any_of(row, [&](const Vec3& c) { return c != film.row(y)[x]; })) return false;
+  const std::uint32_t x0 = std::max(x, kReach) - kReach, x1 = std::min(x + kReach + 1, size.width);
+  const std::uint32_t y0 = std::max(y, kReach) - kReach, y1 = std::min(y + kReach + 1, size.height);
+  for (std::uint32_t v = y0; v < y1; ++v) {
+    const auto row = row_of(v).subspan(x0, x1 - x0);
+    if (std::ranges::any_of(row, [&](const auto& c) { return c != row_of(y)[x]; })) return false;
   }
   return true;
 }
@@ -188,17 +91,46 @@ void clean_features(const Film& film, Filters& filters, Images& images) {
 }
 
 /// Returns the pixels that are not filtered, given the normals: those of the background.
-std::vector<bool> background_pixels(Film& film, std::span<const Vec3> normals) {
+std::vector<bool> background_pixels(const Film& film, std::span<const Vec3> normals) {
+  const auto row_of = [&](std::uint32_t y) { return film.row(y); };
   std::vector<bool> is_background(normals.size());
   for (std::uint32_t y = 0, i = 0; y < film.size().height; ++y) {
     for (std::uint32_t x = 0; x < film.size().width; ++x, ++i) {
       // Features have more samples than some pictures, so they may see an edge where these see
       // none.
-      is_background[i] =
-          normals[i] == Vec3(0) && (!has_noisy_features(film) || is_uniform(film, x, y));
+      is_background[i] = normals[i] == Vec3(0) &&
+                         (!has_noisy_features(film) || is_uniform(film.size(), row_of, x, y));
     }
   }
   return is_background;
+}
+
+/// Returns the pixels whose alpha has noise, given the normals. With a lens, this is alpha that
+/// varies, and otherwise only that of shadows.
+std::vector<bool> noisy_alphas(const Film& film, std::span<const Vec3> normals) {
+  const auto row_of = [&](std::uint32_t y) { return film.alpha_row(y); };
+  std::vector<bool> is_noisy(normals.size());
+  for (std::uint32_t y = 0, i = 0; y < film.size().height; ++y) {
+    for (std::uint32_t x = 0; x < film.size().width; ++x, ++i) {
+      is_noisy[i] =
+          (film.has_lens || normals[i] == Vec3(0)) && !is_uniform(film.size(), row_of, x, y);
+    }
+  }
+  return is_noisy;
+}
+
+/// Removes the noise of alpha in these pixels. Overwrites images.color.
+void filter_alpha(Film& film, Filters& filters, const std::vector<bool>& is_noisy, Images& images) {
+  const auto [width, height] = film.size();
+  for (std::uint32_t y = 0, i = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x, ++i) images.color[i] = Vec3(film.alpha_at(x, y));
+  }
+  filters.filter_colors(images);
+  for (std::uint32_t y = 0, i = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x, ++i) {
+      if (is_noisy[i]) film.alpha_at(x, y) = std::clamp(images.color[i].x, 0.0F, 1.0F);
+    }
+  }
 }
 
 /// Denoises a film, which has all features.
@@ -209,7 +141,12 @@ void denoise_film(const OidnFunctions& functions, Film& film, const RenderOption
                 .normal = vectors_of(film, SampledAov::denoise_normal)};
   const std::vector<bool> is_background = background_pixels(film, images.normal);
   Filters filters(functions, film.size(), options);
-  if (has_noisy_features(film)) clean_features(film, filters, images);
+  if (has_noisy_features(film)) {
+    std::vector<bool> is_noisy;
+    if (film.has_alpha()) is_noisy = noisy_alphas(film, images.normal);
+    clean_features(film, filters, images);
+    if (film.has_alpha()) filter_alpha(film, filters, is_noisy, images);
+  }
   const std::uint32_t width = film.size().width, height = film.size().height;
   for (std::uint32_t y = 0, i = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x, ++i)

@@ -172,6 +172,41 @@ TEST_F(DenoiserTest, KeepsAlpha) {
   }
 }
 
+/// True if all pixels at most two pixels away have the same alpha.
+bool has_uniform_alpha(Film& film, std::uint32_t x, std::uint32_t y) {
+  for (std::uint32_t v = y - 2; v <= y + 2; ++v) {
+    for (std::uint32_t u = x - 2; u <= x + 2; ++u) {
+      if (film.alpha_at(u, v) != film.alpha_at(x, y)) return false;
+    }
+  }
+  return true;
+}
+
+// Alpha that varies is filtered: with a lens everywhere, above a ground only where no object is.
+TEST_F(DenoiserTest, FiltersNoisyAlpha) {
+  ::setenv("FAKE_OIDN", "noisy", 1);
+  const PathIntegrator path({.ground = Ground{.height = -2}});
+  for (const double lens_radius : {0.0, 0.02}) {
+    RenderOptions options{.integrator = &path, .transparent = true};
+    Film denoised = drawn(options, true, lens_radius);
+    options.sampled_aovs = {SampledAov::denoise_normal};
+    Film noisy = drawn(options, false, lens_radius);
+    std::size_t filtered = 0, kept = 0;
+    for (std::uint32_t y = 2; y + 2 < kSmall.height; ++y) {
+      for (std::uint32_t x = 2; x + 2 < kSmall.width; ++x) {
+        const bool is_empty = channel(noisy, 0, std::size_t{y} * kSmall.width + x) == Vec3(0);
+        const bool is_kept = (lens_radius == 0 && !is_empty) || has_uniform_alpha(noisy, x, y);
+        const float here = noisy.alpha_at(x, y), beside = noisy.alpha_at(x + 1, y);
+        const float wanted = is_kept ? here : std::min((here + beside) / 2 + 0x1p-6F, 1.0F);
+        EXPECT_EQ(denoised.alpha_at(x, y), wanted) << x << ' ' << y;
+        ++(is_kept ? kept : filtered);
+      }
+    }
+    EXPECT_GT(filtered, 10U);
+    EXPECT_GT(kept, 5U);
+  }
+}
+
 TEST_F(DenoiserTest, CountsMemory) {
   MemoryBudget budget(std::uint64_t{1} << 30U);
   (void)drawn({.memory = &budget});
