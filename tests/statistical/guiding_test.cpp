@@ -12,6 +12,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -189,6 +190,46 @@ TEST(Window, OnlyEnclosedScenesAreGuided) {
   EXPECT_FALSE(is_enclosed(scene)) << "light passes through the backs of walls";
   scene.objects.clear();
   EXPECT_FALSE(is_enclosed(scene));
+}
+
+/// Adds an object with a material of its own in front of the window.
+Scene closed_by(const Material& material, Shape shape) {
+  Scene scene = room();
+  scene.objects.push_back({.name = "pane",
+                           .shape = std::move(shape),
+                           .material = static_cast<std::uint32_t>(scene.materials.size())});
+  scene.materials.push_back(material);
+  return scene;
+}
+
+/// Returns the fraction of light from each bin at the middle of the floor.
+std::vector<double> light_on_floor(const Scene& scene) {
+  const PreparedScene prepared(scene, {.threads = 1});
+  const SkyVisibility visibility(scene, prepared.bvh(), prepared.content().shading());
+  const auto& bins = visibility.cell(visibility.index({0, -1, 0}, {0, 1, 0})).bins;
+  return {bins.begin(), bins.end()};
+}
+
+TEST(Window, CellsSeeTheLightThatPassesThePane) {
+  const std::vector<double> open = light_on_floor(room()), none(open.size());
+  ASSERT_NE(open, none);
+  const Vec3 corner(2, kLow, kLeft), up(0, kHigh - kLow, 0), along(0, 0, kRight - kLeft);
+  const Shape inwards = parallelogram(corner, along, up),
+              outwards = parallelogram(corner, up, along);
+  Material wall, glass, one_sided;
+  glass.alpha_mode = AlphaMode::blend;
+  glass.base_color.w = 0.25F;
+  EXPECT_EQ(light_on_floor(closed_by(wall, inwards)), none);
+  const std::vector<double> dimmed = light_on_floor(closed_by(glass, inwards));
+  for (std::size_t bin = 0; bin < open.size(); ++bin) EXPECT_NEAR(dimmed[bin], 0.75 * open[bin], 1);
+  one_sided.double_sided = false;
+  EXPECT_EQ(light_on_floor(closed_by(one_sided, inwards)), open);
+  EXPECT_EQ(light_on_floor(closed_by(one_sided, outwards)), none);
+  const auto disc = [](float direction) {
+    return Disc{.center = {1.999F, 0.1F, 0}, .normal = {direction, 0, 0}, .radius = 0.6F};
+  };
+  EXPECT_EQ(light_on_floor(closed_by(one_sided, disc(-1))), open);
+  EXPECT_EQ(light_on_floor(closed_by(one_sided, disc(1))), none);
 }
 
 TEST(HemisphereBins, DirectionsAreInTheirBins) {

@@ -1,16 +1,21 @@
 #include "render/guiding/sky_visibility.hpp"
 
+#include "accel/ray_tracer.hpp"
 #include "render/guiding/blurred.hpp"
-#include "render/sampling/hash.hpp"
+#include "render/integrators/path_state.hpp"
+#include "render/kernels/dispatch.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/shading/transmittance.hpp"
 #include "scene/support.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -90,14 +95,14 @@ bool SkyVisibility::finds_enclosed() const {
     const Ray ray{
         .o = in_range(low_ + (high_ - low_) * DVec3(xy.x, xy.y, z.x)),
         .d = bins.direction(bin, {d.x * HemisphereBins::kCount - static_cast<float>(bin), d.y})};
-    if (light_along(ray, bvh_.intersect(ray)) > 0) ++escaped;
+    if (light_along(ray) > 0) ++escaped;
   }
   return escaped <= kGreatestPart;
 }
 
-float SkyVisibility::light_along(const Ray& ray, const std::optional<Hit>& hit) const {
+float SkyVisibility::light_along(const Ray& ray) const {
   std::uint64_t beyond = 0;
-  return transmittance(bvh_, shading_, true, ray, hit, std::nullopt, beyond);
+  return transmittance(bvh_, shading_, true, ray, bvh_.intersect(ray), std::nullopt, beyond);
 }
 
 std::size_t SkyVisibility::index(const Vec3& p, const Vec3& n) const {
@@ -153,53 +158,99 @@ std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
   return found;
 }
 
-/// The light that arrives from each bin, and the number of rays.
-struct SkyVisibility::Light {
-  Values sum{}, rays{};
-};
+/// Finds the light that arrives at points from the bins of a hemisphere.
+class SkyVisibility::Probe {
+ public:
+  Probe(const SkyVisibility& visibility, const SignedAxis& about, std::vector<Start> from)
+      : visibility_(visibility), bins_(about), from_(std::move(from)) {
+    tracer_.begin(visibility.bvh_);
+    std::ranges::fill(rays_.t_max, std::numeric_limits<float>::infinity());
+    std::ranges::fill(rays_.left, kNoPrimitive);
+  }
 
-void SkyVisibility::gather(std::uint32_t key, std::uint32_t round, const std::vector<Start>& from,
-                           const HemisphereBins& bins, Light& light) const {
-  std::vector<Ray> rays;
-  std::vector<std::size_t> bin_of_ray;
-  for (std::uint32_t i = 0; i < kRaysPerBin * HemisphereBins::kCount; ++i) {
-    const std::uint32_t bin = i / kRaysPerBin;
-    const sampling::Sobol sobol(key, round * kRaysPerBin * HemisphereBins::kCount + i);
-    const Start& start =
-        from[static_cast<std::size_t>(sobol.one(1) * static_cast<float>(from.size()))];
-    const Vec3 d = bins.direction(static_cast<int>(bin), sobol.pair(2));
-    if (!(glm::dot(d, start.n) > 0)) continue;
-    rays.push_back({.o = start.p, .t_min = 0, .d = d});
-    bin_of_ray.push_back(bin);
+  /// Traces rays in all bins. `key` scrambles their random numbers, and `round` is the number of
+  /// earlier calls.
+  void trace(std::uint32_t key, std::uint32_t round) {
+    set_rays(key, round);
+    const LightBlockers blockers(tracer_, visibility_.shading_, true);
+    const RayColumns rays = columns_of(rays_, count_);
+    tracer_.any(rays, blockers.open(), std::span(hits_).first(count_));
+    for (std::size_t i = 0; i < count_; ++i) {
+      sum_[bins_of_rays_[i]] += light_along(rays, i, blockers);
+      ++traced_[bins_of_rays_[i]];
+    }
   }
-  std::vector<std::optional<Hit>> hits(rays.size());
-  bvh_.intersect(rays, hits);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    light.sum[bin_of_ray[i]] += light_along(rays[i], hits[i]);
-    ++light.rays[bin_of_ray[i]];
+
+  /// The light that arrives from each bin, and the number of rays.
+  [[nodiscard]] const Values& sum() const { return sum_; }
+  [[nodiscard]] const Values& traced() const { return traced_; }
+
+ private:
+  static constexpr std::uint32_t kRays = kRaysPerBin * HemisphereBins::kCount;
+
+  void set_rays(std::uint32_t key, std::uint32_t round) {
+    const ShadingKernels& kernels = kShadingKernels.best();
+    std::uint32_t keys[kShadingLanes], indices[kShadingLanes];
+    std::ranges::fill(keys, key);
+    static_assert(kRays % kShadingLanes == 0);
+    count_ = 0;
+    for (std::uint32_t first = 0; first < kRays; first += kShadingLanes) {
+      std::iota(std::begin(indices), std::end(indices), round * kRays + first);
+      LaneFloats choice, x, y;
+      kernels.random_numbers(keys, indices, 1, choice);
+      kernels.random_pairs(keys, indices, 2, x, y);
+      for (std::uint32_t lane = 0; lane < kShadingLanes; ++lane)
+        add_ray((first + lane) / kRaysPerBin, choice[lane], {x[lane], y[lane]});
+    }
   }
-}
+  /// Adds a ray in a bin, unless it starts below the surface. `choice` selects its origin.
+  void add_ray(std::uint32_t bin, float choice, const Vec2& place) {
+    const Start& start = from_[static_cast<std::size_t>(choice * static_cast<float>(from_.size()))];
+    const Vec3 d = bins_.direction(static_cast<int>(bin), place);
+    if (!(glm::dot(d, start.n) > 0)) return;
+    put_vector(rays_.o, count_, start.p);
+    put_vector(rays_.d, count_, d);
+    bins_of_rays_[count_++] = bin;
+  }
+  [[nodiscard]] float light_along(const RayColumns& rays, std::size_t i,
+                                  const LightBlockers& blockers) const {
+    if (hits_[i] == kNoPrimitive) return 1;
+    if (blockers.blocks(hits_[i])) return 0;
+    return visibility_.light_along(rays[i]);
+  }
+
+  const SkyVisibility& visibility_;
+  HemisphereBins bins_;
+  std::vector<Start> from_;
+  RayTracer tracer_;
+  std::size_t count_ = 0;  // of rays
+  RayArrays rays_;
+  std::array<std::uint32_t, kRays> bins_of_rays_;
+  std::array<PrimitiveId, kRays> hits_;
+  Values sum_{}, traced_{};
+};
 
 std::unique_ptr<const SkyVisibility::Cell> SkyVisibility::fill(std::size_t index) const {
   auto cell = std::make_unique<Cell>();
   const std::size_t face = index / (size_[0] * size_[1] * size_[2]);
   cell->about = {.axis = static_cast<int>(face / 2), .is_down = face % 2 != 0};
-  const std::vector<Start> from = starts(index, cell->about);
+  std::vector<Start> from = starts(index, cell->about);
   if (from.empty()) return cell;
-  const HemisphereBins bins(cell->about);
-  Light light;
-  const auto arriving = [&] { return std::accumulate(light.sum.begin(), light.sum.end(), 0.0F); };
-  const auto traced = [&] { return std::accumulate(light.rays.begin(), light.rays.end(), 0.0F); };
+  const auto probe = std::make_unique<Probe>(*this, cell->about, std::move(from));
+  const auto total = [](const Values& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0F);
+  };
   // Small openings need more rays.
   constexpr std::uint32_t kMostRounds = 5;
   constexpr float kSmallPart = 1.0F / 16;
   for (std::uint32_t round = 0; round < kMostRounds; ++round) {
-    gather(static_cast<std::uint32_t>(index), round, from, bins, light);
-    if (arriving() > kSmallPart * traced()) break;
+    probe->trace(static_cast<std::uint32_t>(index), round);
+    if (total(probe->sum()) > kSmallPart * total(probe->traced())) break;
   }
-  for (std::size_t bin = 0; bin < light.sum.size(); ++bin)
-    light.sum[bin] /= std::max(light.rays[bin], 1.0F);
-  const Values sums = blurred(light.sum, kSkyGrid);
+  Values light = probe->sum();
+  for (std::size_t bin = 0; bin < light.size(); ++bin)
+    light[bin] /= std::max(probe->traced()[bin], 1.0F);
+  const Values sums = blurred(light, kSkyGrid);
   for (std::size_t bin = 0; bin < sums.size(); ++bin)
     cell->bins[bin] =
         static_cast<std::uint8_t>(std::lround(255 * (sums[bin] / float(kSkyGrid.weight()))));

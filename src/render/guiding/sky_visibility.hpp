@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace microtrace {
@@ -44,17 +43,15 @@ class SkyVisibility {
 
  private:
   struct Start;
-  struct Light;
+  class Probe;
 
   [[nodiscard]] bool finds_enclosed() const;
   [[nodiscard]] std::unique_ptr<const Cell> fill(std::size_t index) const;
   /// Points slightly above the cell's surfaces. Their rays only guide the sampling, so they don't
   /// need exact origins.
   [[nodiscard]] std::vector<Start> starts(std::size_t index, const SignedAxis& about) const;
-  /// Traces rays in all bins and adds the light that arrives.
-  void gather(std::uint32_t key, std::uint32_t round, const std::vector<Start>& from,
-              const HemisphereBins& bins, Light& light) const;
-  [[nodiscard]] float light_along(const Ray& ray, const std::optional<Hit>& hit) const;
+  /// The fraction of the environment's light that arrives along a ray.
+  [[nodiscard]] float light_along(const Ray& ray) const;
 
   const Bvh& bvh_;
   const Shading& shading_;

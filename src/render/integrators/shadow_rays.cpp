@@ -47,10 +47,7 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
                                 std::span<Vec3> colors) {
   const bool passes_backs = backfaces == Backfaces::pass;
   std::uint64_t beyond = 0;
-  const std::uint32_t* open =
-      passes_backs && tracer.knows_fronts() ? shading.open_fronts() : nullptr;
-  // True if opaque surfaces let light pass through their backs, and the queries don't.
-  const bool may_pass_opaque = passes_backs && shading.has_open_backs() && open == nullptr;
+  const LightBlockers blockers(tracer, shading, passes_backs);
   const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
     colors[rays.slot[i]] += part * vector_of(rays.light, i);
   };
@@ -61,14 +58,14 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
     const NestedMedia* here = media.at(arrays.media[i]);
     // Only media within others hide surfaces.
     const bool may_be_hidden = here != nullptr && here->outer != nullptr;
-    if (!may_pass_opaque && !may_be_beside && !may_be_hidden && shading.is_opaque(hits_[i])) return;
+    if (!may_be_beside && !may_be_hidden && blockers.blocks(hits_[i])) return;
     const Ray ray = rays[i];
     add(arrays, i,
         transmittance(bvh, shading, passes_backs, ray, bvh.intersect(ray), target, beyond,
                       {.table = &media, .here = here}));
   };
   const RayColumns free = columns_of(free_.rays, free_.count);
-  tracer.any(free, open, std::span(hits_).first(free_.count));
+  tracer.any(free, blockers.open(), std::span(hits_).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
     if (hits_[i] == kNoPrimitive)
       add(free_.rays, i, 1);
@@ -76,7 +73,7 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
       add_rest(free_.rays, free, i, std::nullopt);
   }
   const RayColumns aimed = columns_of(aimed_.rays, aimed_.count);
-  tracer.closest(aimed, open, std::span(hits_).first(aimed_.count));
+  tracer.closest(aimed, blockers.open(), std::span(hits_).first(aimed_.count));
   for (std::size_t i = 0; i < aimed_.count; ++i) {
     const PrimitiveId target = aimed_.rays.target[i];
     if (hits_[i] == target)

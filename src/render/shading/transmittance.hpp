@@ -1,4 +1,5 @@
 #pragma once
+#include "accel/ray_tracer.hpp"
 #include "render/media/nested_media.hpp"
 #include "render/shading/shading.hpp"
 
@@ -14,6 +15,29 @@ namespace microtrace {
 struct AroundRay {
   NestedMediaTable* table = nullptr;
   const NestedMedia* here = nullptr;  ///< null for a vacuum
+};
+
+/// What blocks all light along a ray.
+class LightBlockers {
+ public:
+  /// If `passes_backs`, light passes through the backs of one-sided surfaces.
+  LightBlockers(const RayTracer& tracer, const Shading& shading, bool passes_backs)
+      : shading_(shading),
+        open_(passes_backs && tracer.knows_fronts() ? shading.open_fronts() : nullptr),
+        may_pass_opaque_(passes_backs && shading.has_open_backs() && open_ == nullptr) {}
+
+  /// The triangles whose fronts the queries of a RayTracer must pass through.
+  [[nodiscard]] const std::uint32_t* open() const { return open_; }
+  /// True if a ray on which such a query has found this primitive transmits no light, unless the
+  /// primitive is the target or a hidden surface. Otherwise, transmittance() decides.
+  [[nodiscard]] bool blocks(PrimitiveId id) const {
+    return !may_pass_opaque_ && shading_.is_opaque(id);
+  }
+
+ private:
+  const Shading& shading_;
+  const std::uint32_t* open_;
+  bool may_pass_opaque_;  // true if light passes opaque surfaces through which the queries don't
 };
 
 /// The fraction of light that passes all surfaces on a ray before its t_max or its target; 0 if the
