@@ -89,6 +89,13 @@ inline Long<N> truncated(const Double<N>& a) {
     return __builtin_convertvector(a, Long<N>);
 }
 template <int N>
+inline Int<N> truncated_to_int(const Double<N>& a) {
+  if constexpr (N == 1)
+    return static_cast<Int<N>>(a);
+  else
+    return __builtin_convertvector(a, Int<N>);
+}
+template <int N>
 inline Float<N> to_float(const Int<N>& a) {
   if constexpr (N == 1)
     return static_cast<float>(a);

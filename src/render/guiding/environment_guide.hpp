@@ -43,10 +43,15 @@ class EnvironmentGuide {
     std::optional<GuideDistribution> directions_{};
   };
 
+  /// The cells' grid.
+  [[nodiscard]] const SkyGrid& grid() const { return visibility_.grid(); }
+  /// The cell with an index of the grid.
+  [[nodiscard]] const Cell& at(std::size_t index) const {
+    return cells_.get(index, [&] { return fill(index); });
+  }
   /// The cell for surfaces at p with the unit normal n.
   [[nodiscard]] const Cell& at(const Vec3& p, const Vec3& n) const {
-    const std::size_t index = visibility_.index(p, n);
-    return cells_.get(index, [&] { return fill(index); });
+    return at(visibility_.index(p, n));
   }
 
  private:

@@ -3,7 +3,6 @@
 
 #include <microtrace/math.hpp>
 
-#include <cmath>
 #include <cstddef>
 
 namespace microtrace {
@@ -13,11 +12,13 @@ struct SignedAxis {
   int axis = 2;          ///< 0 to 2
   bool is_down = false;  ///< true if the direction is negative
 
+  /// The axis of a face_index().
+  [[nodiscard]] static SignedAxis of_face(std::size_t face) {
+    return {.axis = static_cast<int>(face / 2), .is_down = face % 2 != 0};
+  }
   /// The axis from which a unit vector deviates least.
   [[nodiscard]] static SignedAxis nearest(const Vec3& n) {
-    const Vec3 size(std::abs(n.x), std::abs(n.y), std::abs(n.z));
-    const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-    return {.axis = axis, .is_down = n[axis] < 0};
+    return of_face(static_cast<std::size_t>(nearest_face<1>(n)));
   }
   [[nodiscard]] Vec3 direction() const {
     Vec3 d(0);

@@ -10,6 +10,17 @@ namespace microtrace {
 
 inline namespace MICROTRACE_KERNELS {
 
+/// Twice the number of the coordinate axis from which a vector deviates least, plus 1 if the vector
+/// points against the axis.
+template <int N>
+Int<N> nearest_face(const Floats3<N>& n) {
+  const Int<N> x{}, y = x + 1, z = x + 2;
+  const Floats3<N> size = magnitudes(n);
+  const Int<N> axis = size.x >= size.y ? (size.x >= size.z ? x : z) : (size.y >= size.z ? y : z);
+  const Float<N> along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
+  return 2 * axis + (along < 0 ? Int<N>{} + 1 : Int<N>{});
+}
+
 template <int N>
 struct HemisphereLanes {
   using F = Float<N>;

@@ -2,6 +2,7 @@
 
 #include "accel/ray_tracer.hpp"
 #include "render/guiding/blurred.hpp"
+#include "render/guiding/sky_grid.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/kernels/dispatch.hpp"
 #include "render/sampling/sobol.hpp"
@@ -45,8 +46,8 @@ Vec3 in_range(const DVec3& p) {
   return Vec3(glm::clamp(p, -most, most));
 }
 
-std::size_t cells_along(double extent, double cell_size) {
-  return static_cast<std::size_t>(std::clamp(std::ceil(extent / cell_size), 1.0, kCellsAcross));
+std::int32_t cells_along(double extent, double cell_size) {
+  return static_cast<std::int32_t>(std::clamp(std::ceil(extent / cell_size), 1.0, kCellsAcross));
 }
 
 }  // namespace
@@ -73,13 +74,14 @@ SkyVisibility::SkyVisibility(const Scene& scene, const Bvh& bvh, const Shading& 
   low_ = bounds->low - margin;
   high_ = bounds->high + margin;
   const DVec3 extent = high_ - low_;
-  cell_size_ = std::max({extent.x, extent.y, extent.z}) / kCellsAcross;
-  is_enclosed_ = cell_size_ > 0 && finds_enclosed();
+  grid_.cell_size = std::max({extent.x, extent.y, extent.z}) / kCellsAcross;
+  is_enclosed_ = grid_.cell_size > 0 && finds_enclosed();
   if (!is_enclosed_) return;
   std::size_t count = 6;
   for (int axis = 0; axis < 3; ++axis) {
-    size_[axis] = cells_along(extent[axis], cell_size_);
-    count *= size_[axis];
+    grid_.low[axis] = low_[axis];
+    grid_.size[axis] = cells_along(extent[axis], grid_.cell_size);
+    count *= static_cast<std::size_t>(grid_.size[axis]);
   }
   cells_.resize(count);
 }
@@ -106,14 +108,9 @@ float SkyVisibility::light_along(const Ray& ray) const {
 }
 
 std::size_t SkyVisibility::index(const Vec3& p, const Vec3& n) const {
-  const SignedAxis about = SignedAxis::nearest(n);
-  std::size_t index = face_index(about);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double place = (double{p[axis]} - low_[axis]) / cell_size_;
-    const auto last = static_cast<double>(size_[axis] - 1);
-    index = index * size_[axis] + static_cast<std::size_t>(std::clamp(place, 0.0, last));
-  }
-  return index;
+  std::uint32_t cells[1];
+  find_sky_cells<1>(grid_, {{p.x}, {p.y}, {p.z}}, {{n.x}, {n.y}, {n.z}}, cells);
+  return cells[0];
 }
 
 const SkyVisibility::Cell& SkyVisibility::cell(std::size_t index) const {
@@ -125,12 +122,13 @@ std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
   DVec3 corner;
   std::size_t rest = index;
   for (int axis = 2; axis >= 0; --axis) {
-    corner[axis] = low_[axis] + (static_cast<double>(rest % size_[axis]) - kMargin) * cell_size_;
-    rest /= size_[axis];
+    const auto size = static_cast<std::size_t>(grid_.size[axis]);
+    corner[axis] = low_[axis] + (static_cast<double>(rest % size) - kMargin) * grid_.cell_size;
+    rest /= size;
   }
-  const double edge = cell_size_ * (1 + 2 * kMargin);
+  const double edge = grid_.cell_size * (1 + 2 * kMargin);
   constexpr std::uint32_t kMostLayers = 4;
-  const double above = cell_size_ * 0x1p-10;
+  const double above = grid_.cell_size * 0x1p-10;
   std::vector<Start> found;
   for (std::uint32_t i = 0; i < kProbes; ++i) {
     // Probes fall against the axis through the cell, onto surfaces that face the axis.
@@ -232,8 +230,7 @@ class SkyVisibility::Probe {
 
 std::unique_ptr<const SkyVisibility::Cell> SkyVisibility::fill(std::size_t index) const {
   auto cell = std::make_unique<Cell>();
-  const std::size_t face = index / (size_[0] * size_[1] * size_[2]);
-  cell->about = {.axis = static_cast<int>(face / 2), .is_down = face % 2 != 0};
+  cell->about = SignedAxis::of_face(index / (cells_.count() / 6));
   std::vector<Start> from = starts(index, cell->about);
   if (from.empty()) return cell;
   const auto probe = std::make_unique<Probe>(*this, cell->about, std::move(from));

@@ -37,6 +37,8 @@ class SkyVisibility {
   [[nodiscard]] bool is_enclosed() const { return is_enclosed_; }
 
   [[nodiscard]] std::size_t count() const { return cells_.count(); }
+  /// The cells' grid, by which kernels find indices.
+  [[nodiscard]] const SkyGrid& grid() const { return grid_; }
   /// The index of the cell for surfaces at p with the unit normal n.
   [[nodiscard]] std::size_t index(const Vec3& p, const Vec3& n) const;
   [[nodiscard]] const Cell& cell(std::size_t index) const;
@@ -56,8 +58,7 @@ class SkyVisibility {
   const Bvh& bvh_;
   const Shading& shading_;
   DVec3 low_{0}, high_{0};
-  double cell_size_ = 0;
-  glm::vec<3, std::size_t> size_{0};  // number of cells on each axis
+  SkyGrid grid_{};
   bool is_enclosed_ = false;
   LazyCells<Cell> cells_;
 };

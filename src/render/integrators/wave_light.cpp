@@ -38,7 +38,8 @@ void Wave::escape(std::size_t first, Lanes lanes) {
     meet_ground(first + static_cast<std::size_t>(std::countr_zero(rest)));
   // An environment that is not seen is composited later.
   if (!lighting_->has_environment() || (from_camera && !lighting_->is_seen())) return;
-  auto& [lights, origins] = escapes_;
+  MapLanes<kShadingLanes>& lights = escapes_.lights;
+  LightChoices<kShadingLanes>& origins = escapes_.origins;
   for (int axis = 0; axis < 3; ++axis) {
     std::memcpy(lights.d[axis], paths.d[axis] + first, sizeof(LaneFloats));
     std::memcpy(origins.p[axis], paths.from_p[axis] + first, sizeof(LaneFloats));

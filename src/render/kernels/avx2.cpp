@@ -1,10 +1,12 @@
 #include "render/guiding/guide_table.hpp"
+#include "render/guiding/sky_grid.hpp"
 #include "render/kernels/append.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/finish_guided.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_environment.hpp"
 #include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_punctual.hpp"
 #include "render/kernels/sample_triangles.hpp"
@@ -29,6 +31,11 @@ const ShadingKernels kAvx2Shading{"avx2",
                                   look_up_map<8, kShadingLanes>,
                                   sample_map<8, kShadingLanes>,
                                   environment_probabilities<8, kShadingLanes>,
+                                  split_environment<8, kShadingLanes>,
+                                  sample_sphere<8, kShadingLanes>,
+                                  mix_environment_pdfs<8, kShadingLanes>,
+                                  finish_environment<8, kShadingLanes>,
+                                  find_sky_cells<8, kShadingLanes>,
                                   scatter<8>,
                                   sample_guides<8, kShadingLanes>,
                                   guide_pdfs<8, kShadingLanes>,

@@ -1,10 +1,12 @@
 #include "render/guiding/guide_table.hpp"
+#include "render/guiding/sky_grid.hpp"
 #include "render/kernels/append.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/finish_guided.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_environment.hpp"
 #include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_punctual.hpp"
 #include "render/kernels/sample_triangles.hpp"
@@ -29,6 +31,11 @@ const ShadingKernels kAvx512Shading{"avx512",
                                     look_up_map<16, kShadingLanes>,
                                     sample_map<16, kShadingLanes>,
                                     environment_probabilities<16, kShadingLanes>,
+                                    split_environment<16, kShadingLanes>,
+                                    sample_sphere<16, kShadingLanes>,
+                                    mix_environment_pdfs<16, kShadingLanes>,
+                                    finish_environment<16, kShadingLanes>,
+                                    find_sky_cells<16, kShadingLanes>,
                                     scatter<16>,
                                     sample_guides<16, kShadingLanes>,
                                     guide_pdfs<16, kShadingLanes>,

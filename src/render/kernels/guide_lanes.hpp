@@ -10,6 +10,14 @@ struct HemisphereGrid {
   static constexpr int kRows = 12, kColumns = 24, kCount = kRows * kColumns;
 };
 
+/// The grid of a SkyVisibility. It has one layer of cells for each of the six faces of a cube
+/// toward which surfaces face; see nearest_face().
+struct SkyGrid {
+  double low[3];  ///< corner of the first cell
+  double cell_size;
+  std::int32_t size[3];  ///< number of cells on each axis
+};
+
 /// A pdf of directions on the hemisphere about a coordinate axis: constant within each bin of
 /// HemisphereLanes, or within each of kParts parts of the bins from which much of the light
 /// arrives. Probabilities are multiples of 1 / kSlots.

@@ -6,10 +6,10 @@
 /// A kernel performs the same computation for up to kShadingLanes paths.
 
 #include "render/bsdf/features.hpp"
+#include "render/kernels/environment_lanes.hpp"
 #include "render/kernels/film_lanes.hpp"
 #include "render/kernels/guide_lanes.hpp"
 #include "render/kernels/light_lanes.hpp"
-#include "render/kernels/map_lanes.hpp"
 #include "render/kernels/surface_lanes.hpp"
 
 #include <cstddef>
@@ -141,6 +141,18 @@ struct ShadingKernels {
   /// Sets the probabilities of selecting the environment.
   void (*environment_probabilities)(const LightChoiceSetup& setup,
                                     LightChoices<kShadingLanes>& lanes);
+  /// See sample_environment.hpp.
+  void (*split_environment)(const LightChoices<kShadingLanes>& choices, int count,
+                            EnvironmentSamples<kShadingLanes>& samples);
+  void (*sample_sphere)(const LaneFloats (&u)[2], LaneFloats (&d)[3]);
+  void (*mix_environment_pdfs)(const LaneFloats (&wi)[3], EnvironmentCells<kShadingLanes>& cells,
+                               LaneFloats& pdfs);
+  void (*finish_environment)(const LightChoices<kShadingLanes>& choices,
+                             EnvironmentSamples<kShadingLanes>& from,
+                             LightSamples<kShadingLanes>& samples);
+  /// See sky_grid.hpp.
+  void (*find_sky_cells)(const SkyGrid& grid, const LaneFloats (&p)[3], const LaneFloats (&n)[3],
+                         std::uint32_t (&cells)[kShadingLanes]);
   void (*scatter)(const ScatterSetup& setup, ScatterLanes& lanes);
   /// See guide_table.hpp.
   void (*sample_guides)(GuideLanes<kShadingLanes>& lanes);

@@ -1,10 +1,12 @@
 #include "render/guiding/guide_table.hpp"
+#include "render/guiding/sky_grid.hpp"
 #include "render/kernels/append.hpp"
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/finish_guided.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_environment.hpp"
 #include "render/kernels/sample_positions.hpp"
 #include "render/kernels/sample_punctual.hpp"
 #include "render/kernels/sample_triangles.hpp"
@@ -29,6 +31,11 @@ const ShadingKernels kPortableShading{"portable",
                                       look_up_map<4, kShadingLanes>,
                                       sample_map<4, kShadingLanes>,
                                       environment_probabilities<4, kShadingLanes>,
+                                      split_environment<4, kShadingLanes>,
+                                      sample_sphere<4, kShadingLanes>,
+                                      mix_environment_pdfs<4, kShadingLanes>,
+                                      finish_environment<4, kShadingLanes>,
+                                      find_sky_cells<4, kShadingLanes>,
                                       scatter<4>,
                                       sample_guides<4, kShadingLanes>,
                                       guide_pdfs<4, kShadingLanes>,

@@ -5,7 +5,6 @@
 #include "render/lights/map_light.hpp"
 #include "render/lights/studio.hpp"
 #include "render/luminance.hpp"
-#include "scene/math/revolutions.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -88,12 +87,13 @@ Vec3 EnvironmentLight::radiance(const Vec3& direction) const {
   return lookup(direction).radiance;
 }
 
+void EnvironmentLight::put_uniform(MapLanes<kShadingLanes>& lanes) const {
+  for (int axis = 0; axis < 3; ++axis) std::ranges::fill(lanes.radiance[axis], uniform_[axis]);
+  std::ranges::fill(lanes.pdf, kUniformPdf);
+}
+
 void EnvironmentLight::look_up(Lanes lanes, MapLanes<kShadingLanes>& at) const {
-  if (!tables_) {
-    for (int axis = 0; axis < 3; ++axis) std::ranges::fill(at.radiance[axis], uniform_[axis]);
-    std::ranges::fill(at.pdf, kUniformPdf);
-    return;
-  }
+  if (!tables_) return put_uniform(at);
   kernels_->find_map_places(shape_, at);
   for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
@@ -105,27 +105,15 @@ void EnvironmentLight::look_up(Lanes lanes, MapLanes<kShadingLanes>& at) const {
   kernels_->look_up_map(shape_, at);
 }
 
-void EnvironmentLight::sample(std::span<const Vec2> u, std::span<Sample> samples) const {
+void EnvironmentLight::sample(Lanes lanes, const LaneFloats (&u)[2],
+                              MapLanes<kShadingLanes>& samples) const {
   if (!tables_) {
-    for (std::size_t i = 0; i < u.size(); ++i) samples[i] = uniform_sample(u[i]);
+    kernels_->sample_sphere(u, samples.d);
+    put_uniform(samples);
     return;
   }
-  MapLanes<kShadingLanes> lanes{};
-  tables_->distribution.select(u, lanes);
-  kernels_->sample_map(shape_, lanes);
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const auto lane = static_cast<int>(i);
-    samples[i] = {
-        .wi = got(lanes.d, lane), .radiance = got(lanes.radiance, lane), .pdf = lanes.pdf[lane]};
-  }
-}
-
-EnvironmentLight::Sample EnvironmentLight::uniform_sample(const Vec2& u) const {
-  const float h = u.y, r = 2 * std::sqrt(h * (1 - h));
-  const SineCosine angle = sin_cos_revolutions(u.x);
-  return {.wi = {r * angle.cosine, 1 - 2 * h, r * angle.sine},
-          .radiance = uniform_,
-          .pdf = kUniformPdf};
+  tables_->distribution.select(lanes, u, samples);
+  kernels_->sample_map(shape_, samples);
 }
 
 }  // namespace microtrace

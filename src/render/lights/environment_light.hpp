@@ -11,7 +11,6 @@
 #include <microtrace/math.hpp>
 
 #include <memory>
-#include <span>
 #include <utility>
 
 namespace microtrace {
@@ -49,14 +48,10 @@ class EnvironmentLight {
   /// The size of the map in pixels; 1 x 1 for a uniform environment.
   [[nodiscard]] ImageSize map_size() const;
 
-  struct Sample {
-    Vec3 wi;
-    Vec3 radiance;  ///< equals radiance(wi) except for rounding
-    float pdf;      ///< the pdf of the unrounded wi; positive
-  };
-  /// Samples directions approximately in proportion to their radiance. Each element of u is in [0,
-  /// 1)^2. Takes up to kShadingLanes elements at a time, which is faster than one by one.
-  void sample(std::span<const Vec2> u, std::span<Sample> samples) const;
+  /// Samples directions approximately in proportion to their radiance in these lanes. u is in [0,
+  /// 1)^2. Sets d; the radiance, which equals that of d except for rounding; and the positive pdf
+  /// of the unrounded d.
+  void sample(Lanes lanes, const LaneFloats (&u)[2], MapLanes<kShadingLanes>& samples) const;
 
   struct Lookup {
     Vec3 radiance;
@@ -74,7 +69,9 @@ class EnvironmentLight {
   [[nodiscard]] float sampled_luminance() const { return sampled_luminance_; }
 
  private:
-  [[nodiscard]] Sample uniform_sample(const Vec2& u) const;
+  /// Sets the radiance and the pdf of any direction of a uniform environment.
+  void put_uniform(MapLanes<kShadingLanes>& lanes) const;
+
   Vec3 uniform_{0};
   std::shared_ptr<const MapTables> tables_{};  ///< null if the radiance is uniform_
   const ShadingKernels* kernels_;

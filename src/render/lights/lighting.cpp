@@ -5,7 +5,6 @@
 #include "render/lights/map_light.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <optional>
 #include <utility>
@@ -21,44 +20,6 @@ void put_sample(LightSamples<kShadingLanes>& lanes, int lane, const LightSample&
   lanes.pdf[lane] = sample.pdf;
   lanes.target[lane] = sample.target.value_or(LightSamples<kShadingLanes>::kNoTarget);
 }
-
-/// Directions that are sampled by the visibility of the environment.
-class GuidedDirections {
- public:
-  explicit GuidedDirections(const std::array<const EnvironmentGuide::Cell*, kShadingLanes>& cells) {
-    for (int lane = 0; lane < kShadingLanes; ++lane) {
-      const EnvironmentGuide::Cell* cell = cells[static_cast<std::size_t>(lane)];
-      parts_[lane] = cell != nullptr ? cell->part() : 0;
-      lanes_.tables[lane] = parts_[lane] > 0 ? &cell->directions() : nullptr;
-    }
-    is_any_ = complete_tables(lanes_);
-  }
-
-  /// Samples unit directions. At least one cell must have a part.
-  [[nodiscard]] const auto& sample(const ShadingKernels& kernels, const LaneFloats (&u)[2]) {
-    copy(lanes_.u, u);
-    kernels.sample_guides(lanes_);
-    return lanes_.wi;
-  }
-  /// Changes the pdfs of these lanes' directions in the environment's distribution to those in the
-  /// mixture with the guide.
-  void mix_pdfs(const ShadingKernels& kernels, Lanes which, const LaneFloats (&wi)[3],
-                LaneFloats& pdfs) {
-    if (!is_any_) return;
-    copy(lanes_.wi, wi);
-    kernels.guide_pdfs(lanes_);
-    for (; which != 0; which &= which - 1) {
-      const int lane = std::countr_zero(which);
-      if (parts_[lane] > 0)
-        pdfs[lane] = parts_[lane] * lanes_.pdf[lane] + (1 - parts_[lane]) * pdfs[lane];
-    }
-  }
-
- private:
-  bool is_any_ = false;
-  LaneFloats parts_;
-  GuideLanes<kShadingLanes> lanes_{};
-};
 
 }  // namespace
 
@@ -81,68 +42,46 @@ float Lighting::share(const EnvironmentGuide::Cell* cell) const {
   return std::max(cell->openness(), kLeast) / kLeastMapPart;
 }
 
-Lighting::Cells Lighting::cells(Lanes lanes, const LightChoices<kShadingLanes>& points) const {
-  Cells cells{};
-  for (Lanes rest = guide_ ? lanes : 0; rest != 0; rest &= rest - 1) {
-    const int lane = std::countr_zero(rest);
-    cells[static_cast<std::size_t>(lane)] = cell(got(points.p, lane), got(points.n, lane));
+void Lighting::find_cells(const ShadingKernels& kernels, Lanes lanes,
+                          LightChoices<kShadingLanes>& points,
+                          EnvironmentCells<kShadingLanes>& cells) const {
+  std::ranges::fill(points.share, 1.0F);
+  std::ranges::fill(cells.part, 0.0F);
+  cells.is_any = false;
+  cells.is_uniform = environment_ && environment_->is_uniform();
+  if (!guide_) return;
+  std::uint32_t indices[kShadingLanes];
+  kernels.find_sky_cells(guide_->grid(), points.p, points.n, indices);
+  std::ranges::fill(cells.guides.tables, nullptr);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    const EnvironmentGuide::Cell& cell = guide_->at(indices[lane]);
+    points.share[lane] = share(&cell);
+    cells.part[lane] = cell.part();
+    cells.guides.tables[lane] = cell.part() > 0 ? &cell.directions() : nullptr;
   }
-  return cells;
+  cells.is_any = complete_tables(cells.guides);
 }
 
-void Lighting::sample_environment(const ShadingKernels& kernels, const Cells& cells, int count,
-                                  const Choices& all_choices,
+void Lighting::sample_environment(const ShadingKernels& kernels, int count, Choices& choices,
                                   LightSamples<kShadingLanes>& samples) const {
-  const LightChoices<kShadingLanes>& choices = all_choices.points;
-  const TriangleChoices<kShadingLanes>& triangles = all_choices.triangles;
-  std::array<Vec2, kShadingLanes> u;
-  std::array<int, kShadingLanes> lanes;
-  std::size_t free = 0;
-  Lanes by_visibility = 0;
-  for (int lane = 0; lane < count; ++lane) {
-    const EnvironmentGuide::Cell* own_cell = cells[static_cast<std::size_t>(lane)];
-    if (choices.kind[lane] != LightKind::environment || !samples_environment(own_cell)) continue;
-    // The kernel selects the environment with the lowest numbers.
-    const float choice = choices.choice[lane] / choices.probability[lane];
-    if (own_cell != nullptr && choice < own_cell->part()) {
-      by_visibility |= Lanes{1} << lane;
-      continue;
-    }
-    u[free] = Vec2(triangles.u[0][lane], triangles.u[1][lane]);
-    lanes[free++] = lane;
+  EnvironmentSamples<kShadingLanes>& found = choices.environment;
+  kernels.split_environment(choices.points, count, found);
+  const LaneFloats(&u)[2] = choices.triangles.u;
+  if (found.lanes_independent != 0)
+    environment_->sample(found.lanes_independent, u, found.independent);
+  if (found.lanes_by_visibility != 0) {
+    copy(found.cells.guides.u, u);
+    kernels.sample_guides(found.cells.guides);
+    copy(found.visible.d, found.cells.guides.wi);
+    environment_->look_up(found.lanes_by_visibility, found.visible);
   }
-  std::array<EnvironmentLight::Sample, kShadingLanes> found;
-  environment_->sample(std::span(u).first(free), found);
-  std::optional<GuidedDirections> guided;
-  if (guide_) guided.emplace(cells);
-  const auto set = [&](int lane, const Vec3& wi, const Vec3& radiance, float own_pdf) {
-    put_sample(samples, lane,
-               {.to_light = wi, .is_far = true, .wi = wi, .light = radiance, .pdf = own_pdf});
-  };
-  if (by_visibility != 0) {
-    const auto& directions = guided->sample(kernels, triangles.u);
-    for (Lanes rest = by_visibility; rest != 0; rest &= rest - 1) {
-      const int lane = std::countr_zero(rest);
-      const Vec3 wi = got(directions, lane);
-      const EnvironmentLight::Lookup look = environment_->lookup(wi);
-      set(lane, wi, look.radiance, look.pdf);
-    }
-  }
-  Lanes selected = by_visibility;
-  for (std::size_t i = 0; i < free; ++i) {
-    set(lanes[i], found[i].wi, found[i].radiance, found[i].pdf);
-    selected |= Lanes{1} << lanes[i];
-  }
-  if (guided) guided->mix_pdfs(kernels, selected, samples.wi, samples.pdf);
-  for (Lanes rest = selected; rest != 0; rest &= rest - 1) {
-    const int lane = std::countr_zero(rest);
-    samples.pdf[lane] *= choices.probability[lane];
-    put(samples.light, lane, got(samples.light, lane) / samples.pdf[lane]);
-  }
+  if ((found.lanes_independent | found.lanes_by_visibility) != 0)
+    kernels.finish_environment(choices.points, found, samples);
 }
 
 void Lighting::sample_near(int lane, Choices& choices, LightSamples<kShadingLanes>& samples) const {
-  auto& [points, triangles, punctual] = choices;
+  auto& [points, triangles, punctual, environment] = choices;
   const std::uint32_t light = points.light[lane];
   const Vec2 u(triangles.u[0][lane], triangles.u[1][lane]);
   if (const std::optional<std::uint32_t> triangle = emitters_.triangle_index(light)) {
@@ -164,13 +103,13 @@ void Lighting::sample_near(int lane, Choices& choices, LightSamples<kShadingLane
 
 void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices,
                       LightSamples<kShadingLanes>& samples) const {
-  auto& [points, triangles, punctual] = choices;
-  const Cells found = cells((Lanes{1} << count) - 1, points);
-  for (int lane = 0; lane < count; ++lane)
-    points.share[lane] = share(found[static_cast<std::size_t>(lane)]);
+  auto& [points, triangles, punctual, environment] = choices;
+  find_cells(kernels, (Lanes{1} << count) - 1, points, environment.cells);
   kernels.choose_lights(setup_, points);
   for (auto& light : samples.light) std::ranges::fill(light, 0.0F);
   std::ranges::fill(samples.target, LightSamples<kShadingLanes>::kNoTarget);
+  if (samples_environment()) sample_environment(kernels, count, choices, samples);
+  if (!emitters_.has_near() && !emitters_.has_far()) return;
   std::ranges::fill(triangles.selected, 0.0F);
   std::ranges::fill(triangles.triangle, 0U);
   std::ranges::fill(punctual.selected, 0.0F);
@@ -184,7 +123,6 @@ void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices
       punctual.group_size[lane] = static_cast<float>(emitters_.far_count());
     }
   }
-  if (samples_environment()) sample_environment(kernels, found, count, choices, samples);
   const auto is_any = [](const LaneFloats& selected) {
     return std::ranges::any_of(selected, [](float one) { return one != 0; });
   };
@@ -196,7 +134,7 @@ void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices
 
 void Lighting::environment(const ShadingKernels& kernels, Lanes lanes, bool from_camera,
                            Escapes& escapes) const {
-  auto& [lights, origins] = escapes;
+  auto& [lights, origins, cells] = escapes;
   kernels.normalize(lights.d);
   environment_->look_up(lanes, lights);
   if (from_camera) return;
@@ -204,13 +142,8 @@ void Lighting::environment(const ShadingKernels& kernels, Lanes lanes, bool from
     std::ranges::fill(lights.pdf, 0.0F);
     return;
   }
-  const Cells found = cells(lanes, origins);
-  for (int lane = 0; lane < kShadingLanes; ++lane) {
-    const EnvironmentGuide::Cell* own_cell = found[static_cast<std::size_t>(lane)];
-    origins.share[lane] = share(own_cell);
-    if (!samples_environment(own_cell)) lights.pdf[lane] = 0;
-  }
-  if (guide_) GuidedDirections(found).mix_pdfs(kernels, lanes, lights.d, lights.pdf);
+  find_cells(kernels, lanes, origins, cells);
+  kernels.mix_environment_pdfs(lights.d, cells, lights.pdf);
   kernels.environment_probabilities(setup_, origins);
   for (int lane = 0; lane < kShadingLanes; ++lane) lights.pdf[lane] *= origins.probability[lane];
 }

@@ -32,6 +32,7 @@ class Lighting {
     LightChoices<kShadingLanes> points{};
     TriangleChoices<kShadingLanes> triangles{};
     PunctualChoices<kShadingLanes> punctual{};
+    EnvironmentSamples<kShadingLanes> environment{};
   };
   /// Samples a light for each of `count` points. points.p and n are the points, points.choice
   /// selects the light, and triangles.u the position on it. If a uniform environment is selected
@@ -61,8 +62,9 @@ class Lighting {
   [[nodiscard]] bool has_environment() const { return environment_ != nullptr; }
   /// Rays that leave the scene.
   struct Escapes {
-    MapLanes<kShadingLanes> lights{};       ///< d holds the directions, of any length
-    LightChoices<kShadingLanes> origins{};  ///< p and n are LightSampleContexts
+    MapLanes<kShadingLanes> lights{};         ///< d holds the directions, of any length
+    LightChoices<kShadingLanes> origins{};    ///< p and n are LightSampleContexts
+    EnvironmentCells<kShadingLanes> cells{};  ///< working memory
   };
   /// Makes the directions in these lanes unit vectors, and sets the environment's radiance and the
   /// pdf with which sample() would sample them. Leaves out the pdf for rays from the camera.
@@ -91,22 +93,17 @@ class Lighting {
                                                    const EnvironmentGuide::Cell* cell) const {
     return kind_probabilities<1>(setup_, setup_.space.point<1>(context.p), context.n, share(cell));
   }
-  /// The guide's cells for the surfaces in some lanes; null in other lanes, and if there is no
-  /// guide.
-  using Cells = std::array<const EnvironmentGuide::Cell*, kShadingLanes>;
-  [[nodiscard]] Cells cells(Lanes lanes, const LightChoices<kShadingLanes>& points) const;
+  /// Finds the guide's cells for the surfaces in these lanes. Sets points.share.
+  void find_cells(const ShadingKernels& kernels, Lanes lanes, LightChoices<kShadingLanes>& points,
+                  EnvironmentCells<kShadingLanes>& cells) const;
   /// Sets the samples of the lanes for which the environment is selected.
-  void sample_environment(const ShadingKernels& kernels, const Cells& cells, int count,
-                          const Choices& choices, LightSamples<kShadingLanes>& samples) const;
+  void sample_environment(const ShadingKernels& kernels, int count, Choices& choices,
+                          LightSamples<kShadingLanes>& samples) const;
   /// Sets the sample of a lane for which a near light is selected, unless it is a triangle of a
   /// mesh or a punctual light, which kernels sample.
   void sample_near(int lane, Choices& choices, LightSamples<kShadingLanes>& samples) const;
   [[nodiscard]] bool samples_environment() const {
     return environment_ && (guide_ || !environment_->is_uniform());
-  }
-  /// True if the environment is sampled in this cell.
-  [[nodiscard]] bool samples_environment(const EnvironmentGuide::Cell* cell) const {
-    return !environment_->is_uniform() || (cell != nullptr && cell->part() > 0);
   }
 
   const Emitters& emitters_;

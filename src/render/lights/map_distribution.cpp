@@ -5,6 +5,7 @@
 #include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -178,27 +179,30 @@ void MapDistribution::prefetch(std::uint32_t column, std::uint32_t line) const {
 
 // Works in steps, each of which prefetches the data of the next step, because the tables and the
 // map don't fit into the fastest caches.
-void MapDistribution::select(std::span<const Vec2> u, MapLanes<kShadingLanes>& lanes) const {
-  std::array<std::uint32_t, kShadingLanes> lines;
-  std::array<const std::uint16_t*, kShadingLanes> guides;
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const std::uint32_t number = number_of(u[i].y);
+void MapDistribution::select(Lanes which, const LaneFloats (&u)[2],
+                             MapLanes<kShadingLanes>& lanes) const {
+  const auto for_each = [&](const auto& f) {
+    for (Lanes rest = which; rest != 0; rest &= rest - 1) f(std::countr_zero(rest));
+  };
+  const std::uint16_t* guides[kShadingLanes];
+  const auto line_of = [&](int i) { return static_cast<std::uint32_t>(lanes.line[i]); };
+  for_each([&](int i) {
+    const std::uint32_t number = number_of(u[1][i]);
     const Found line = find(row_bounds_.data(), row_guide_[entry_of(number, height_ + 1)], number);
-    lines[i] = line.index;
     lanes.line[i] = static_cast<std::int32_t>(line.index);
     lanes.y[i] = line.place;
     guides[i] =
-        &column_guide_[std::size_t{line.index} * width_ + entry_of(number_of(u[i].x), width_)];
+        &column_guide_[std::size_t{line.index} * width_ + entry_of(number_of(u[0][i]), width_)];
     __builtin_prefetch(guides[i]);
-  }
-  for (std::size_t i = 0; i < u.size(); ++i) __builtin_prefetch(columns_of(lines[i]) + *guides[i]);
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const Found column = find(columns_of(lines[i]), *guides[i], number_of(u[i].x));
+  });
+  for_each([&](int i) { __builtin_prefetch(columns_of(line_of(i)) + *guides[i]); });
+  for_each([&](int i) {
+    const Found column = find(columns_of(line_of(i)), *guides[i], number_of(u[0][i]));
     lanes.column[i] = static_cast<std::int32_t>(column.index);
     lanes.x[i] = column.place;
-    for (const Vec3* row : rows_of(map_, lines[i])) __builtin_prefetch(row + column.index);
-  }
-  for (int lane = 0; lane < static_cast<int>(u.size()); ++lane) put_cell(lane, lanes);
+    for (const Vec3* row : rows_of(map_, line_of(i))) __builtin_prefetch(row + column.index);
+  });
+  for_each([&](int i) { put_cell(i, lanes); });
 }
 
 }  // namespace microtrace

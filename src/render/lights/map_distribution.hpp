@@ -3,6 +3,7 @@
 
 #include "render/kernels/kernel.hpp"
 #include "render/kernels/lane_access.hpp"
+#include "simd/vector_types.hpp"
 
 #include <microtrace/environment.hpp>
 #include <microtrace/math.hpp>
@@ -11,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace microtrace {
@@ -50,10 +50,9 @@ class MapDistribution {
   /// The shape of the map without a rotation, with an intensity of 1.
   [[nodiscard]] const MapShape& shape() const { return shape_; }
 
-  /// Selects a cell for each element of u in [0, 1)^2, in the lanes from 0 on. Sets all members
-  /// that sample_map() reads. Selecting several at a time is faster, because their memory accesses
-  /// overlap.
-  void select(std::span<const Vec2> u, MapLanes<kShadingLanes>& lanes) const;
+  /// Selects a cell for u in [0, 1)^2 in each of these lanes. Sets all members that sample_map()
+  /// reads. Selecting several at a time is faster, because their memory accesses overlap.
+  void select(Lanes which, const LaneFloats (&u)[2], MapLanes<kShadingLanes>& lanes) const;
 
   /// Prefetches what put_cell() reads.
   void prefetch(std::uint32_t column, std::uint32_t line) const;

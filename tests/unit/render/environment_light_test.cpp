@@ -7,14 +7,12 @@
 #include "render/sampling/sobol.hpp"
 #include "support/pi.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <random>
-#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -23,10 +21,29 @@
 namespace microtrace {
 namespace {
 
-EnvironmentLight::Sample sample_of(const EnvironmentLight& light, const Vec2& u) {
-  EnvironmentLight::Sample sample;
-  light.sample({&u, 1}, {&sample, 1});
-  return sample;
+struct DirectionSample {
+  Vec3 wi, radiance;
+  float pdf;
+};
+
+DirectionSample sample_in(const MapLanes<kShadingLanes>& lanes, int lane) {
+  return {.wi = got(lanes.d, lane), .radiance = got(lanes.radiance, lane), .pdf = lanes.pdf[lane]};
+}
+
+DirectionSample sample_of(const EnvironmentLight& light, const Vec2& u) {
+  const LaneFloats numbers[2] = {{u.x}, {u.y}};
+  MapLanes<kShadingLanes> lanes{};
+  light.sample(1, numbers, lanes);
+  return sample_in(lanes, 0);
+}
+
+/// Sets u to numbers of this round.
+void put_numbers(LaneFloats (&u)[2], std::uint32_t seed, std::uint32_t round) {
+  for (int i = 0; i < kShadingLanes; ++i) {
+    const Vec2 pair = sampling::Sobol(seed, 16 * round + static_cast<std::uint32_t>(i)).pair(0);
+    u[0][i] = pair.x;
+    u[1][i] = pair.y;
+  }
 }
 
 std::shared_ptr<const RadianceMap> map_of(
@@ -70,7 +87,7 @@ TEST(EnvironmentLight, UniformLightIsEqualInAllDirections) {
   EXPECT_TRUE(light.is_uniform());
   DVec3 sum(0);
   for (std::uint32_t i = 0; i < 4096; ++i) {
-    const EnvironmentLight::Sample sample = sample_of(light, sobol(i));
+    const DirectionSample sample = sample_of(light, sobol(i));
     EXPECT_EQ(sample.radiance, Vec3(0.5F, 1, 1.5F));
     EXPECT_EQ(light.radiance(sample.wi), sample.radiance);
     EXPECT_NEAR(sample.pdf, 1 / (4 * kPi), 1e-8);
@@ -192,7 +209,7 @@ TEST_P(Maps, SamplesHaveTheRadianceAndPdfOfTheirDirection) {
   for (const Vec3& pixel : map->pixels) brightest = std::max(brightest, 1.5F * pixel.x);
   std::uint32_t moved = 0;
   for (std::uint32_t i = 0; i < kSamples; ++i) {
-    const EnvironmentLight::Sample sample = sample_of(light, sobol(i));
+    const DirectionSample sample = sample_of(light, sobol(i));
     ASSERT_NEAR(glm::length(sample.wi), 1, 2e-6);
     ASSERT_GT(sample.pdf, 0);
     const EnvironmentLight::Lookup look = light.lookup(sample.wi);
@@ -208,7 +225,7 @@ TEST(EnvironmentLight, SamplesOfASunHaveEqualWeights) {
   const EnvironmentLight light({.content = sunny_map(64, 32)});
   float least = HUGE_VALF, most = 0;
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    const EnvironmentLight::Sample sample = sample_of(light, sobol(i));
+    const DirectionSample sample = sample_of(light, sobol(i));
     if (sample.radiance.y < 1000) continue;
     least = std::min(least, sample.radiance.y / sample.pdf);
     most = std::max(most, sample.radiance.y / sample.pdf);
@@ -260,7 +277,7 @@ TEST_P(Maps, EstimatesTheIntegral) {
   std::uniform_real_distribution<float> number(0, 0x0.ffffffp0F);
   for (std::uint32_t i = 0; i < kSamples; ++i) {
     const float a = number(random), b = number(random);
-    const EnvironmentLight::Sample sample = sample_of(light, {a, b});
+    const DirectionSample sample = sample_of(light, {a, b});
     const DVec3 value = DVec3(sample.radiance) / double{sample.pdf};
     sum += value;
     squares += value * value;
@@ -288,7 +305,7 @@ TEST(EnvironmentLight, SamplesDimLightBesideASun) {
   double dim = 0;
   constexpr std::uint32_t kSamples = 1U << 20U;
   for (std::uint32_t i = 0; i < kSamples; ++i) {
-    const EnvironmentLight::Sample sample = sample_of(light, sobol(i));
+    const DirectionSample sample = sample_of(light, sobol(i));
     ASSERT_GT(sample.pdf, 0);
     if (sample.radiance.x < 0.02F) dim += double{sample.radiance.x} / double{sample.pdf} / kSamples;
   }
@@ -338,18 +355,23 @@ TEST(Studio, ExposesWhite) {
 }
 
 TEST(EnvironmentLight, SeveralSamplesEqualSingleOnes) {
-  const EnvironmentLight studio(Environment{.content = Studio{}});
-  std::array<Vec2, kShadingLanes> u;
-  std::array<EnvironmentLight::Sample, kShadingLanes> samples;
-  for (std::uint32_t round = 0; round < 200; ++round) {
-    for (std::uint32_t i = 0; i < u.size(); ++i) u[i] = sampling::Sobol(5, 16 * round + i).pair(0);
-    const std::size_t count = 1 + round % u.size();
-    studio.sample(std::span(u).first(count), samples);
-    for (std::size_t i = 0; i < count; ++i) {
-      const EnvironmentLight::Sample one = sample_of(studio, u[i]);
-      ASSERT_EQ(samples[i].wi, one.wi);
-      ASSERT_EQ(samples[i].radiance, one.radiance);
-      ASSERT_EQ(samples[i].pdf, one.pdf);
+  for (const Environment& environment :
+       {Environment{.content = Studio{}}, Environment{.content = Vec3(1, 2, 3)}}) {
+    const EnvironmentLight light(environment);
+    LaneFloats u[2];
+    MapLanes<kShadingLanes> lanes{};
+    for (std::uint32_t round = 0; round < 200; ++round) {
+      put_numbers(u, 5, round);
+      const Lanes asked = round == 0 ? 0xffffU : (round * 2654435761U) >> 16U;
+      light.sample(asked, u, lanes);
+      for (Lanes rest = asked; rest != 0; rest &= rest - 1) {
+        const int lane = std::countr_zero(rest);
+        const DirectionSample sample = sample_in(lanes, lane),
+                              one = sample_of(light, {u[0][lane], u[1][lane]});
+        ASSERT_EQ(sample.wi, one.wi);
+        ASSERT_EQ(sample.radiance, one.radiance);
+        ASSERT_EQ(sample.pdf, one.pdf);
+      }
     }
   }
 }
@@ -386,10 +408,10 @@ TEST(EnvironmentLight, KernelsAgree) {
   const std::shared_ptr<const RadianceMap> map = sunny_map(33, 12);
   const MapDistribution distribution(*map);
   for (std::uint32_t round = 0; round < 100; ++round) {
-    std::array<Vec2, kShadingLanes> u;
-    for (std::uint32_t i = 0; i < u.size(); ++i) u[i] = sampling::Sobol(3, 16 * round + i).pair(0);
+    LaneFloats u[2];
+    put_numbers(u, 3, round);
     MapLanes<kShadingLanes> expected{};
-    distribution.select(u, expected);
+    distribution.select(kAllLanes<kShadingLanes>, u, expected);
     const MapLanes<kShadingLanes> selected = expected;
     kPortableShading.sample_map(distribution.shape(), expected);
     for (const ShadingKernels* kernels : kShadingKernels.available()) {
