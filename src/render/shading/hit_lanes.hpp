@@ -12,6 +12,15 @@ namespace microtrace {
   return !mesh.uv_sets.empty() && !mesh.uv_sets[0].empty();
 }
 
+/// Prefetches what put_positions() and put_attributes() read.
+inline void prefetch_corners(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
+  for (const std::uint32_t corner : corners) {
+    __builtin_prefetch(&mesh.positions[corner]);
+    if (!mesh.normals.empty()) __builtin_prefetch(&mesh.normals[corner]);
+    if (has_uv(mesh)) __builtin_prefetch(&mesh.uv_sets[0][corner]);
+  }
+}
+
 template <int width>
 void put_attributes(HitArrays<width>& lanes, int lane, const Mesh& mesh,
                     const std::array<std::uint32_t, 3>& corners) {

@@ -2,27 +2,41 @@
 #include "render/shading/hit_lanes.hpp"
 #include "render/shading/shading.hpp"
 
+#include <array>
 #include <bit>
 
 namespace microtrace {
 
+// Works in steps, each of which prefetches the data of the next step, because most meshes don't fit
+// into the fastest caches.
 void Shading::find_points(const ShadingKernels& kernels,
                           std::span<const PrimitiveId, kShadingLanes> ids, HitGroup& group) const {
   Lanes on_meshes = 0;
+  std::array<std::size_t, kShadingLanes> triangles;
   for (Lanes rest = group.hit; rest != 0; rest &= rest - 1) {
-    const int lane = std::countr_zero(rest);
-    const auto i = static_cast<std::size_t>(lane);
-    const Lanes bit = Lanes{1} << lane;
+    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
     const Entry& entry = entries_[primitives_.object_index(ids[i])];
     group.looks[i] = &looks_[entry.look];
     group.meshes[i] = entry.mesh;
     if (entry.mesh == nullptr) continue;
-    on_meshes |= bit;
-    group.corners[i] = entry.mesh->corners(ids[i] - entry.first_id);
-    put_positions(group.lanes, lane, *entry.mesh, group.corners[i]);
-    const bool has_attributes = !entry.mesh->normals.empty() || has_uv(*entry.mesh);
+    on_meshes |= Lanes{1} << i;
+    triangles[i] = ids[i] - entry.first_id;
+    __builtin_prefetch(&entry.mesh->triangles[triangles[i]]);
+  }
+  for (Lanes rest = on_meshes; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+    group.corners[i] = group.meshes[i]->corners(triangles[i]);
+    prefetch_corners(*group.meshes[i], group.corners[i]);
+  }
+  for (Lanes rest = on_meshes; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    const auto i = static_cast<std::size_t>(lane);
+    const Lanes bit = Lanes{1} << lane;
+    const Mesh& mesh = *group.meshes[i];
+    put_positions(group.lanes, lane, mesh, group.corners[i]);
+    const bool has_attributes = !mesh.normals.empty() || has_uv(mesh);
     if (!has_attributes && (group.with_attributes & bit) == 0) continue;
-    put_attributes(group.lanes, lane, *entry.mesh, group.corners[i]);
+    put_attributes(group.lanes, lane, mesh, group.corners[i]);
     group.with_attributes =
         has_attributes ? group.with_attributes | bit : group.with_attributes & ~bit;
   }
