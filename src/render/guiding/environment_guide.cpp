@@ -1,7 +1,9 @@
 #include "render/guiding/environment_guide.hpp"
 
+#include "render/lights/map_light.hpp"
 #include "render/luminance.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -16,9 +18,10 @@ constexpr float kPartOfUniform = 0.875F, kPartOfMap = 0.5F;
 
 }  // namespace
 
-std::unique_ptr<const EnvironmentGuide::Cell> EnvironmentGuide::fill(std::size_t index) const {
+std::unique_ptr<const EnvironmentGuide::Distribution> EnvironmentGuide::fill(
+    std::size_t index) const {
   const SkyVisibility::Cell& visible = visibility_.cell(index);
-  auto cell = std::make_unique<Cell>();
+  Cell& cell = cells_[index];
   const HemisphereBins bins(visible.about);
   std::vector<GuideDistribution::Weight> weights;
   double sum = 0, cosines = 0, arriving = 0;
@@ -38,11 +41,16 @@ std::unique_ptr<const EnvironmentGuide::Cell> EnvironmentGuide::fill(std::size_t
     weights.push_back({.bin = bin, .part = GuideTable::kWhole, .weight = weight});
     sum += weight;
   }
-  cell->openness_ = static_cast<float>(arriving / cosines);
-  if (!(sum > 0) || cell->openness_ > kGreatestOpenness) return cell;
-  cell->part_ = environment_.is_uniform() ? kPartOfUniform : kPartOfMap;
-  cell->directions_.emplace(visible.about, weights);
-  return cell;
+  // The fraction of a uniform environment's irradiance that arrives.
+  const auto openness = static_cast<float>(arriving / cosines);
+  // The brightest parts of a map may be visible even if little of it is.
+  constexpr float kLeast = 0x1p-6F;
+  if (environment_.is_uniform()) cell.share = std::max(openness, kLeast) / kLeastMapPart;
+  if (!(sum > 0) || openness > kGreatestOpenness) return std::make_unique<Distribution>();
+  auto distribution = std::make_unique<Distribution>(GuideDistribution(visible.about, weights));
+  cell.part = environment_.is_uniform() ? kPartOfUniform : kPartOfMap;
+  cell.directions = &(*distribution)->table();
+  return distribution;
 }
 
 }  // namespace microtrace

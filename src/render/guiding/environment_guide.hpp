@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace microtrace {
 
@@ -24,30 +25,26 @@ class EnvironmentGuide {
   EnvironmentGuide(const SkyVisibility& visibility, const EnvironmentLight& environment)
       : visibility_(visibility), environment_(environment) {
     cells_.resize(visibility.count());
+    distributions_.resize(visibility.count());
   }
 
-  class Cell {
-   public:
+  struct Cell {
     /// The probability of sampling by visibility. It is 0 if the cell sees much of the environment,
     /// or nothing of it.
-    [[nodiscard]] float part() const { return part_; }
-    /// The fraction of a uniform environment's irradiance that arrives, at most 1.
-    [[nodiscard]] float openness() const { return openness_; }
-
-    /// The distribution of directions by visibility. part() must not be 0.
-    [[nodiscard]] const GuideTable& directions() const { return directions_->table(); }
-
-   private:
-    friend class EnvironmentGuide;
-    float part_ = 0, openness_ = 1;
-    std::optional<GuideDistribution> directions_{};
+    float part = 0;
+    /// The factor of the environment's estimated light at a surface in this cell.
+    float share = 1;
+    /// The distribution of directions by visibility; null if the probability is 0.
+    const GuideTable* directions = nullptr;
   };
 
   /// The cells' grid.
   [[nodiscard]] const SkyGrid& grid() const { return visibility_.grid(); }
   /// The cell with an index of the grid.
   [[nodiscard]] const Cell& at(std::size_t index) const {
-    return cells_.get(index, [&] { return fill(index); });
+    // Makes the cell on first use.
+    (void)distributions_.get(index, [&] { return fill(index); });
+    return cells_[index];
   }
   /// The cell for surfaces at p with the unit normal n.
   [[nodiscard]] const Cell& at(const Vec3& p, const Vec3& n) const {
@@ -55,11 +52,15 @@ class EnvironmentGuide {
   }
 
  private:
-  [[nodiscard]] std::unique_ptr<const Cell> fill(std::size_t index) const;
+  using Distribution = std::optional<GuideDistribution>;
+
+  /// Sets a cell and returns its distribution.
+  [[nodiscard]] std::unique_ptr<const Distribution> fill(std::size_t index) const;
 
   const SkyVisibility& visibility_;
   const EnvironmentLight& environment_;
-  LazyCells<Cell> cells_;
+  mutable std::vector<Cell> cells_;  // side by side, because the fastest caches hold few of them
+  LazyCells<Distribution> distributions_;  // empty where the probability is 0
 };
 
 }  // namespace microtrace

@@ -2,7 +2,6 @@
 
 #include "render/bsdf/ggx.hpp"
 #include "render/kernels/lane_access.hpp"
-#include "render/lights/map_light.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -21,6 +20,16 @@ void put_sample(LightSamples<kShadingLanes>& lanes, int lane, const LightSample&
   lanes.target[lane] = sample.target.value_or(LightSamples<kShadingLanes>::kNoTarget);
 }
 
+/// Prefetches what sample_guides() reads for the first random numbers u. The tables of all cells
+/// don't fit into the fastest caches.
+void prefetch_samples(const GuideTable* const (&tables)[kShadingLanes], const LaneFloats& u) {
+  for (int lane = 0; lane < kShadingLanes; ++lane) {
+    const GuideTable& table = *tables[lane];
+    __builtin_prefetch(&table.axis);
+    __builtin_prefetch(&table.slots[static_cast<int>(u[lane] * GuideTable::kSlots)]);
+  }
+}
+
 }  // namespace
 
 Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment,
@@ -33,13 +42,6 @@ Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> env
       setup_.irradiance(double{environment_->sampled_luminance() / bsdf::kInversePi});
   if (visibility != nullptr && environment_->sampled_luminance() > 0)
     guide_ = std::make_unique<const EnvironmentGuide>(*visibility, *environment_);
-}
-
-float Lighting::share(const EnvironmentGuide::Cell* cell) const {
-  // The brightest parts of a map may be visible even if little of it is.
-  if (cell == nullptr || !environment_->is_uniform()) return 1;
-  constexpr float kLeast = 0x1p-6F;
-  return std::max(cell->openness(), kLeast) / kLeastMapPart;
 }
 
 void Lighting::find_cells(const ShadingKernels& kernels, Lanes lanes,
@@ -56,9 +58,9 @@ void Lighting::find_cells(const ShadingKernels& kernels, Lanes lanes,
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = std::countr_zero(lanes);
     const EnvironmentGuide::Cell& cell = guide_->at(indices[lane]);
-    points.share[lane] = share(&cell);
-    cells.part[lane] = cell.part();
-    cells.guides.tables[lane] = cell.part() > 0 ? &cell.directions() : nullptr;
+    points.share[lane] = cell.share;
+    cells.part[lane] = cell.part;
+    cells.guides.tables[lane] = cell.directions;
   }
   cells.is_any = complete_tables(cells.guides);
 }
@@ -105,6 +107,7 @@ void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices
                       LightSamples<kShadingLanes>& samples) const {
   auto& [points, triangles, punctual, environment] = choices;
   find_cells(kernels, (Lanes{1} << count) - 1, points, environment.cells);
+  if (environment.cells.is_any) prefetch_samples(environment.cells.guides.tables, triangles.u[0]);
   kernels.choose_lights(setup_, points);
   for (auto& light : samples.light) std::ranges::fill(light, 0.0F);
   std::ranges::fill(samples.target, LightSamples<kShadingLanes>::kNoTarget);

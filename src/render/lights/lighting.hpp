@@ -87,11 +87,10 @@ class Lighting {
   [[nodiscard]] const EnvironmentGuide::Cell* cell(const Vec3& p, const Vec3& n) const {
     return guide_ ? &guide_->at(p, n) : nullptr;
   }
-  /// The factor of the environment's estimated light at a surface in this cell.
-  [[nodiscard]] float share(const EnvironmentGuide::Cell* cell) const;
   [[nodiscard]] KindProbabilities<1> probabilities(const LightSampleContext& context,
                                                    const EnvironmentGuide::Cell* cell) const {
-    return kind_probabilities<1>(setup_, setup_.space.point<1>(context.p), context.n, share(cell));
+    return kind_probabilities<1>(setup_, setup_.space.point<1>(context.p), context.n,
+                                 cell != nullptr ? cell->share : 1);
   }
   /// Finds the guide's cells for the surfaces in these lanes. Sets points.share.
   void find_cells(const ShadingKernels& kernels, Lanes lanes, LightChoices<kShadingLanes>& points,
