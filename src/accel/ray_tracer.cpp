@@ -5,6 +5,7 @@
 #include "accel/resolve/hit_resolver.hpp"
 #include "accel/stage_counts.hpp"
 #include "float_environment.hpp"
+#include "simd/lane_count.hpp"
 
 #include <algorithm>
 #include <array>
@@ -104,7 +105,7 @@ void RayTracer::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes, HitP
 
 Lanes RayTracer::leave(Lanes wanted, OriginLanes& lanes) {
   const FloatEnvironment environment;
-  fallback_stages.origins += static_cast<std::uint64_t>(std::popcount(wanted));
+  fallback_stages.origins += static_cast<std::uint64_t>(lane_count(wanted));
   Lanes found = queries().spawns.leave(wanted, lanes);
   for (Lanes open = wanted & ~found; open != 0; open &= open - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(open));

@@ -4,6 +4,7 @@
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/slabs.hpp"
+#include "simd/lane_count.hpp"
 
 namespace microtrace {
 namespace {
@@ -101,7 +102,7 @@ inline ChildRef step_into(const WideNode& node, const BoxRay& ray, float begin, 
   const float popped_near = kAny ? 0 : stack.near[size - 1];
   store_lanes(others, node.child, stack.child + size);
   if constexpr (!kAny) store_lanes(others, test.near, stack.near + size);
-  stack.size = size - 1 + __builtin_popcount(test.entered);
+  stack.size = size - 1 + lane_count(test.entered);
   const bool pops = test.entered == 0;
   if (!kAny && pops & (popped_near > limit)) return pop<kAny>(stack, limit);
   return pops ? popped : node.child[lane];

@@ -9,6 +9,7 @@
 #include "accel/kernels/node_test.hpp"
 #include "accel/kernels/occlusion_packet.hpp"
 #include "accel/kernels/slabs.hpp"
+#include "simd/lane_count.hpp"
 
 namespace microtrace {
 namespace {
@@ -204,7 +205,7 @@ class StreamWalk {
         std::uint32_t slots[8];
         for (std::uint32_t i = 0; i < 8; ++i) slots[i] = first + i;
         store_lanes(lanes, slots, to.slot + to.size);
-        to.size += __builtin_popcount(lanes);
+        to.size += lane_count(lanes);
       };
       list(nodes_, 0, child_ref::kTriangles - 1);
       list(leaves_, child_ref::kTriangles, child_ref::kOthers - 1);

@@ -3,6 +3,7 @@
 #include "render/kernels/dispatch.hpp"
 #include "render/kernels/lane_access.hpp"
 #include "render/shading/beer_lambert.hpp"
+#include "simd/lane_count.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -26,7 +27,7 @@ Lanes lanes_where(const F& condition) {
 
 /// The first n of these lanes.
 Lanes first_of(Lanes lanes, int n) {
-  while (std::popcount(lanes) > n) lanes &= ~std::bit_floor(lanes);
+  while (lane_count(lanes) > n) lanes &= ~std::bit_floor(lanes);
   return lanes;
 }
 

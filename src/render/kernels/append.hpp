@@ -2,6 +2,7 @@
 /// Appends lanes of some arrays to others.
 
 #include "render/kernels/kernel.hpp"
+#include "simd/lane_count.hpp"
 #include "simd/vectors.hpp"
 
 namespace microtrace {
@@ -12,7 +13,7 @@ int append(const ColumnCopy* columns, int column_count, const AppendedLanes& whi
     for (int i = 0; i < column_count; ++i)
       append_column(columns[i].from + which.from, columns[i].to + which.to);
   };
-  const int count = __builtin_popcount(which.lanes);
+  const int count = lane_count(which.lanes);
   if (which.lanes == kAllLanes<kShadingLanes>) {
     append_all(
         [](const float* from, float* to) { __builtin_memcpy(to, from, sizeof(LaneFloats)); });

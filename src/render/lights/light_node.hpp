@@ -2,6 +2,7 @@
 /// The importance of lights in light tree nodes, for N lanes.
 
 #include "render/sampling/warps.hpp"
+#include "simd/lane_count.hpp"
 #include "simd/transpose.hpp"
 #include "simd/vector3.hpp"
 #include "simd/vectors.hpp"
@@ -220,7 +221,7 @@ void descend(const LightNode* nodes, LightDescent<N>& state, Lanes inner) {
   using F = Float<N>;
   while (inner != 0) {
     if constexpr (N > 4) {
-      if (const int count = __builtin_popcount(inner); count <= N / 2) {
+      if (const int count = lane_count(inner); count <= N / 2) {
         int from[N / 2];
         Lanes rest = inner;
         for (int& one : from) {
