@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -62,24 +63,34 @@ class Places {
     if (few_) {
       EXPECT_EQ(found, search(query, few_.get()));
     }
-    return found;
+    return found[0];
+  }
+
+  /// Returns the triangles that each query finds by traversal.
+  std::vector<std::optional<std::set<PrimitiveId>>> search(BoxQueries& queries) const {
+    return search(queries, nullptr);
   }
 
  private:
-  std::optional<std::set<PrimitiveId>> search(BoxQueries& query, const FewTriangles* few) const {
+  std::vector<std::optional<std::set<PrimitiveId>>> search(BoxQueries& queries,
+                                                           const FewTriangles* few) const {
     kernels_.touching({.nodes = tree_.nodes.data(),
                        .blocks = tree_.blocks.data(),
                        .others = tree_.others.data(),
                        .root = tree_.root,
                        .few = few},
-                      query);
-    if (query.count[0] < 0) return std::nullopt;
-    std::set<PrimitiveId> found;
-    for (int i = 0; i < query.count[0]; ++i) {
-      const std::uint32_t slot = query.slots[0][i];
-      found.insert(tree_.blocks[slot / kWidth].id[slot % kWidth]);
+                      queries);
+    std::vector<std::optional<std::set<PrimitiveId>>> result;
+    for (int query = 0; query < queries.size; ++query) {
+      auto& found = result.emplace_back();
+      if (queries.count[query] < 0) continue;
+      found.emplace();
+      for (int i = 0; i < queries.count[query]; ++i) {
+        const std::uint32_t slot = queries.slots[query][i];
+        found->insert(tree_.blocks[slot / kWidth].id[slot % kWidth]);
+      }
     }
-    return found;
+    return result;
   }
 
   Scene scene_;
@@ -169,6 +180,44 @@ TEST_P(Touching, OmitsOneTriangleAndAPlane) {
     for (PrimitiveId id = 0; id < 40; ++id)
       EXPECT_EQ(found->contains(id), id % 4 < 2 && id != 8) << axis << " " << id;
   }
+}
+
+// Small triangles, and large ones that many boxes touch. Some boxes are near each other, so that
+// their queries share nodes, some touch too many triangles, and some are empty.
+TEST_P(Touching, SeveralQueriesFindTheTrianglesOfSingleOnes) {
+  Random random(53);
+  Mesh mesh;
+  for (int i = 0; i < 2000; ++i) {
+    const float size = i % 50 == 0 ? 1.0F : 0x1p-5F;
+    const Vec3 a = random.in_cube(1), b = a + random.in_cube(size), c = a + random.in_cube(size);
+    append_triangle(mesh, a, b, c);
+  }
+  const Places places(mesh, *GetParam());
+  int some = 0, too_many = 0;
+  for (int round = 0; round < 300; ++round) {
+    BoxQueries queries{};
+    queries.size = random.between(1, kBoxQueries);
+    std::vector<std::optional<std::set<PrimitiveId>>> expected;
+    const Vec3 middle = random.in_cube(1);
+    const float range = random.power_of_two(-6, 0);
+    for (int i = 0; i < queries.size; ++i) {
+      const Vec3 p = middle + random.in_cube(range);
+      const float reach = random.one_in(8) ? -1 : random.power_of_two(-12, -1);
+      const Omitted omitted{.id = static_cast<PrimitiveId>(random.between(0, 1999))};
+      for (int k = 0; k < 3; ++k) queries.lo[k][i] = p[k] - reach, queries.hi[k][i] = p[k] + reach;
+      queries.omitted_id[i] = omitted.id;
+      queries.plane_axis[i] = -1;
+      expected.push_back(places.near(p - reach, p + reach, omitted));
+      some += expected.back() && !expected.back()->empty() ? 1 : 0;
+      too_many += expected.back() ? 0 : 1;
+      if (reach < 0) {
+        ASSERT_EQ(expected.back(), std::set<PrimitiveId>());
+      }
+    }
+    ASSERT_EQ(places.search(queries), expected) << round;
+  }
+  EXPECT_GT(some, 500);
+  EXPECT_GT(too_many, 100);
 }
 
 }  // namespace

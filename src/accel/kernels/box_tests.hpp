@@ -46,22 +46,50 @@ inline Lanes touched_children(const WideNode& node, const ClosedBox& box) {
   return lanes;
 }
 
-/// Returns the triangles whose bounding boxes overlap the box. Unused slots are NaN and overlap
-/// nothing.
+/// Returns the boxes among N that overlap another box, which may not be empty.
 template <int N>
-inline Lanes touched_triangles(const TriangleBlock& block, const ClosedBox& box) {
-  Lanes lanes = 0;
-  for (int i = 0; i < kWidth; i += N) {
-    Lanes touched = kAllLanes<N>;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Float<N> a = load<N>(block.a[axis] + i), b = load<N>(block.b[axis] + i),
-                     c = load<N>(block.c[axis] + i);
-      touched &= overlapping<N>(lesser(lesser(b, c), a), greater(greater(b, c), a), box, axis);
-    }
-    lanes |= touched << i;
-  }
-  return lanes;
+inline Lanes overlapping(const float (&lo)[3], const float (&hi)[3], const Float<N> (&los)[3],
+                         const Float<N> (&his)[3]) {
+  // The differences have the signs of exact ones.
+  Float<N> gap = greater(Float<N>(lo[0] - his[0]), Float<N>(los[0] - hi[0]));
+  for (int axis = 1; axis < 3; ++axis)
+    gap = greater(greater(Float<N>(lo[axis] - his[axis]), Float<N>(los[axis] - hi[axis])), gap);
+  return less_equal<N>(gap, Float<N>{});
 }
+
+/// The bounding boxes of a block's triangles.
+template <int N>
+class BlockBounds {
+ public:
+  explicit BlockBounds(const TriangleBlock& block) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < kParts; ++k) {
+        const int i = k * N;
+        const Float<N> a = load<N>(block.a[axis] + i), b = load<N>(block.b[axis] + i),
+                       c = load<N>(block.c[axis] + i);
+        lo_[k][axis] = lesser(lesser(b, c), a);
+        hi_[k][axis] = greater(greater(b, c), a);
+      }
+    }
+  }
+
+  /// Returns the triangles whose bounding boxes overlap the box. Unused slots are NaN and overlap
+  /// nothing.
+  [[nodiscard]] Lanes touched(const ClosedBox& box) const {
+    Lanes lanes = 0;
+    for (int k = 0; k < kParts; ++k) {
+      Lanes touched = kAllLanes<N>;
+      for (int axis = 0; axis < 3; ++axis)
+        touched &= overlapping<N>(lo_[k][axis], hi_[k][axis], box, axis);
+      lanes |= touched << k * N;
+    }
+    return lanes;
+  }
+
+ private:
+  static constexpr int kParts = kWidth / N;
+  Float<N> lo_[kParts][3], hi_[kParts][3];
+};
 
 /// Returns the triangles that the query omits.
 template <int N>

@@ -6,6 +6,7 @@
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/node_test.hpp"
 #include "accel/kernels/simd.hpp"
+#include "simd/lane_count.hpp"
 
 namespace microtrace {
 namespace {
@@ -44,6 +45,32 @@ struct BoxSearch {
   ChildRef stack[kStackSize + kWidth];
 };
 
+/// Adds the triangles of a block that touch query i, which omits some. `bounds` are those of the
+/// block. The slot of the block's first triangle is `slot`, or kIdSlot in the scope of an instance.
+/// Returns true if there are too many results.
+template <int N>
+inline bool adds_too_many(BoxQueries& queries, int i, const BoxQuery& query,
+                          const TriangleBlock& block, const BlockBounds<N>& bounds,
+                          std::uint32_t slot) {
+  Lanes lanes = bounds.touched(query.box);
+  if (lanes != 0) lanes &= ~omitted_triangles<N>(block, query);
+  if (lanes != 0) {  // often false on axis-aligned walls
+    const CenteredBox<float> box(query.box.lo, query.box.hi);
+    for (int k = 0; k < kWidth; k += N) {
+      const Lanes these = lanes & kAllLanes<N> << k;
+      lanes &= ~these;
+      lanes |= without_clear<N>(these >> k, BlockVertices<N>(block, k).at, box) << k;
+    }
+  }
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::uint32_t>(first_lane(lanes));
+    if (slot == kIdSlot ? adds_too_many(queries, i, kIdSlot, block.id[lane])
+                        : adds_too_many(queries, i, slot + lane))
+      return true;
+  }
+  return false;
+}
+
 /// Visits the next node or leaf of query i.
 template <int N>
 inline void step(const TreeView& tree, BoxSearch& search, BoxQueries& queries, int i) {
@@ -54,7 +81,7 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQueries& queries, i
     const WideNode& node = scope.nodes[next];
     const Lanes lanes = touched_children<N>(node, scope.choose(query.box, search.inner));
     store_lanes(lanes, node.child, search.stack + search.size);
-    search.size += __builtin_popcount(lanes);
+    search.size += lane_count(lanes);
     return;
   }
   if (next == kInstanceEnd) {
@@ -79,26 +106,13 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQueries& queries, i
                       : adds_too_many(queries, i, kIdSlot, scope.first_id() + scope.others[entry]);
       continue;
     }
-    TriangleBlock placed;
-    if (scope.instance != nullptr) {
-      if (touched_triangles<N>(scope.blocks[entry], search.inner) == 0) continue;
+    if (scope.instance == nullptr) {
+      const TriangleBlock& block = scope.blocks[entry];
+      overflows = adds_too_many<N>(queries, i, query, block, BlockBounds<N>(block), entry * kWidth);
+    } else if (BlockBounds<N>(scope.blocks[entry]).touched(search.inner) != 0) {
+      TriangleBlock placed;
       tree.scene_block(*scope.instance, scope.blocks[entry], placed);
-    }
-    const TriangleBlock& block = scope.choose(scope.blocks[entry], placed);
-    Lanes lanes = touched_triangles<N>(block, query.box);
-    if (lanes != 0) lanes &= ~omitted_triangles<N>(block, query);
-    if (lanes != 0) {  // often false on axis-aligned walls
-      const CenteredBox<float> box(query.box.lo, query.box.hi);
-      for (int k = 0; k < kWidth; k += N) {
-        const Lanes these = lanes & kAllLanes<N> << k;
-        lanes &= ~these;
-        lanes |= without_clear<N>(these >> k, BlockVertices<N>(block, k).at, box) << k;
-      }
-    }
-    for (; lanes != 0 && !overflows; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::uint32_t>(first_lane(lanes));
-      overflows = scope.instance == nullptr ? adds_too_many(queries, i, entry * kWidth + lane)
-                                            : adds_too_many(queries, i, kIdSlot, block.id[lane]);
+      overflows = adds_too_many<N>(queries, i, query, placed, BlockBounds<N>(placed), kIdSlot);
     }
   }
   if (overflows) search.size = 0;
@@ -121,13 +135,14 @@ class FewTrianglesSearch {
       const CenteredBox<F> boxes(lo, hi);
       for (int k = 0; k < tree_.few->ends[FewTriangles::kOblique]; ++k) {
         const FewTriangles::Facet& facet = tree_.few->facets[k];
-        const Lanes near = all_queries & overlapping(facet.box, lo, hi);
+        const Lanes near = all_queries & overlapping<N>(facet.box.lo, facet.box.hi, lo, hi);
         if (near == 0) continue;
         for (const int number : {facet.first, facet.second}) {
           if (number < 0) break;
           const FewTriangles::Entry& triangle = tree_.few->entries[number];
           Lanes lanes = without_omitted(triangle, first, near);
-          if (lanes != 0 && facet.second >= 0) lanes &= overlapping(triangle.box, lo, hi);
+          if (lanes != 0 && facet.second >= 0)
+            lanes &= overlapping<N>(triangle.box.lo, triangle.box.hi, lo, hi);
           if (lanes != 0) lanes = without_clear<N>(lanes, triangle.vertices, boxes);
           for (; lanes != 0; lanes &= lanes - 1) {
             const int i = first + first_lane(lanes);
@@ -140,15 +155,6 @@ class FewTrianglesSearch {
 
  private:
   using F = Float<N>;
-
-  [[nodiscard]] static Lanes overlapping(const FewTriangles::Box& box, const F (&lo)[3],
-                                         const F (&hi)[3]) {
-    // The differences have the signs of exact ones.
-    F gap = greater(F(box.lo[0] - hi[0]), F(lo[0] - box.hi[0]));
-    for (int axis = 1; axis < 3; ++axis)
-      gap = greater(greater(F(box.lo[axis] - hi[axis]), F(lo[axis] - box.hi[axis])), gap);
-    return less_equal<N>(gap, F{});
-  }
 
   /// Returns those of `lanes` whose queries don't omit the triangle.
   [[nodiscard]] Lanes without_omitted(const FewTriangles::Entry& triangle, int first,
@@ -166,32 +172,126 @@ class FewTrianglesSearch {
   BoxQueries& queries_;
 };
 
-/// See Kernels::touching. M: number of boxes that are tested against one triangle at a time.
+/// Finds the primitives near up to kBoxQueries boxes. M: number of boxes that are tested against
+/// one box of the tree at a time.
+template <int N, int M>
+class TreeSearch {
+ public:
+  TreeSearch(const TreeView& tree, BoxQueries& queries) : tree_(tree), queries_(queries) {}
+
+  void run() {
+    Lanes all_queries = 0;
+    for (int i = 0; i < queries_.size; ++i)
+      all_queries |= Lanes{queries_.lo[0][i] <= queries_.hi[0][i]} << i;  // skips empty boxes
+    if (tree_.instances == nullptr)
+      search_together(all_queries);
+    else
+      part(tree_.root, all_queries);
+    int going[kBoxQueries], count = 0;
+    for (Lanes lanes = parted_; lanes != 0; lanes &= lanes - 1) going[count++] = first_lane(lanes);
+    while (count > 0) {
+      int left = 0;
+      for (int k = 0; k < count; ++k) {
+        const int i = going[k];
+        step<N>(tree_, searches_[i], queries_, i);
+        going[left] = i;
+        left += searches_[i].size > 0 ? 1 : 0;
+      }
+      count = left;
+    }
+  }
+
+ private:
+  /// A subtree, and the queries whose boxes overlap its box.
+  struct Subtree {
+    ChildRef root;
+    Lanes queries;
+  };
+  /// Queries that share a node are tested together if there are at least so many.
+  static constexpr int kTogether = 3;
+
+  /// Searches the subtrees that several queries share.
+  void search_together(Lanes all_queries) {
+    Subtree stack[stack_size(false)];
+    stack[0] = {tree_.root, all_queries};
+    for (int size = 1; size > 0;) {
+      const auto [next, queries] = stack[--size];
+      const ChildRef kind = next & child_ref::kKind;
+      if (kind != 0) {
+        search_leaf(next, queries);
+      } else if (lane_count(queries) < kTogether) {
+        part(next, queries);
+      } else {
+        const WideNode& node = tree_.nodes[next];
+        for (int k = 0; k < kWidth; ++k) {
+          const float lo[3] = {node.lo_x[k], node.lo_y[k], node.lo_z[k]};
+          const float hi[3] = {node.hi_x[k], node.hi_y[k], node.hi_z[k]};
+          const Lanes near = queries & overlapping(lo, hi);
+          stack[size] = {node.child[k], near};
+          size += near != 0 ? 1 : 0;
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] Lanes overlapping(const float (&lo)[3], const float (&hi)[3]) const {
+    Lanes lanes = 0;
+    for (int i = 0; i < kBoxQueries; i += M) {
+      const Float<M> los[3] = {load<M>(queries_.lo[0] + i), load<M>(queries_.lo[1] + i),
+                               load<M>(queries_.lo[2] + i)};
+      const Float<M> his[3] = {load<M>(queries_.hi[0] + i), load<M>(queries_.hi[1] + i),
+                               load<M>(queries_.hi[2] + i)};
+      lanes |= microtrace::overlapping<M>(lo, hi, los, his) << i;
+    }
+    return lanes;
+  }
+
+  void search_leaf(ChildRef leaf, Lanes queries) {
+    const std::uint32_t first = (leaf & ~child_ref::kKind) >> 3U, end = first + (leaf & 7U) + 1;
+    for (std::uint32_t entry = first; entry < end; ++entry) {
+      if ((leaf & child_ref::kKind) != child_ref::kTriangles) {
+        for (Lanes rest = queries; rest != 0; rest &= rest - 1)
+          adds_too_many(queries_, first_lane(rest), kOtherSlot + entry);
+        continue;
+      }
+      const TriangleBlock& block = tree_.blocks[entry];
+      const BlockBounds<N> bounds(block);
+      for (Lanes rest = queries; rest != 0; rest &= rest - 1) {
+        const int i = first_lane(rest);
+        adds_too_many<N>(queries_, i, query_of(queries_, i), block, bounds, entry * kWidth);
+      }
+    }
+  }
+
+  /// Leaves the subtree to a search for each query.
+  void part(ChildRef root, Lanes queries) {
+    for (; queries != 0; queries &= queries - 1) {
+      const int i = first_lane(queries);
+      BoxSearch& search = searches_[i];
+      if ((parted_ >> i & 1U) == 0) {
+        parted_ |= Lanes{1} << i;
+        search.size = 0;
+        search.scope = Scope(tree_);
+        search.query = query_of(queries_, i);
+      }
+      search.stack[search.size++] = root;
+    }
+  }
+
+  const TreeView& tree_;
+  BoxQueries& queries_;
+  Lanes parted_ = 0;  // queries with a search of their own
+  BoxSearch searches_[kBoxQueries];
+};
+
+/// See Kernels::touching. M: number of boxes that are tested against one triangle or box at a time.
 template <int N, int M>
 void touching(const TreeView& tree, BoxQueries& queries) {
   for (int& count : queries.count) count = 0;
-  if (has_few_triangles<M>(tree)) return FewTrianglesSearch<M>(tree, queries).run();
-  BoxSearch searches[kBoxQueries];
-  int going[kBoxQueries], left = 0;
-  for (int i = 0; i < queries.size; ++i) {
-    searches[i].size = 1;
-    searches[i].scope = Scope(tree);
-    searches[i].query = query_of(queries, i);
-    searches[i].stack[0] = tree.root;
-    going[left] = i;
-    left += queries.lo[0][i] <= queries.hi[0][i] ? 1 : 0;  // skips empty boxes
-  }
-  int count = left;
-  while (count > 0) {
-    left = 0;
-    for (int k = 0; k < count; ++k) {
-      const int i = going[k];
-      step<N>(tree, searches[i], queries, i);
-      going[left] = i;
-      left += searches[i].size > 0 ? 1 : 0;
-    }
-    count = left;
-  }
+  if (has_few_triangles<M>(tree))
+    FewTrianglesSearch<M>(tree, queries).run();
+  else
+    TreeSearch<N, M>(tree, queries).run();
 }
 
 }  // namespace
