@@ -6,6 +6,7 @@
 #include <cstdint>
 
 namespace microtrace {
+inline namespace MICROTRACE_KERNELS {
 
 /// Finds the cells for N surfaces at points p with unit normals n.
 template <int N, int width>
@@ -28,4 +29,5 @@ void find_sky_cells(const SkyGrid& grid, const float (&p)[3][width], const float
     find_sky_cells_from<kDoubleLanes<N>>(grid, p, n, cells, i);
 }
 
+}  // namespace MICROTRACE_KERNELS
 }  // namespace microtrace

@@ -7,6 +7,7 @@
 #include "simd/revolutions.hpp"
 
 namespace microtrace {
+inline namespace MICROTRACE_KERNELS {
 
 /// Sets how the environment is sampled at the first `count` points. A uniform environment is
 /// sampled only by visibility.
@@ -100,4 +101,5 @@ void finish_environment(const LightChoices<width>& choices, EnvironmentSamples<w
   }
 }
 
+}  // namespace MICROTRACE_KERNELS
 }  // namespace microtrace
