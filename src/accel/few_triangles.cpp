@@ -140,7 +140,7 @@ std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree, double most_
   for (std::size_t slot = 0; slot < tree.blocks.size() * kWidth; ++slot) {
     const TriangleBlock& block = tree.blocks[slot / kWidth];
     const std::size_t k = slot % kWidth;
-    if (!build::is_used(block, k)) continue;
+    if (!is_used(block, k)) continue;
     const auto known = std::span(result->entries).first(static_cast<std::size_t>(result->count));
     // Large triangles can be in several leaves.
     if (std::ranges::find(known, block.id[k], &Entry::id) != known.end()) continue;

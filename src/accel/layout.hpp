@@ -3,6 +3,7 @@
 /// instruction sets include this header, so it has no functions of external linkage, whose copies
 /// the linker would merge.
 
+#include <cstddef>
 #include <cstdint>
 
 namespace microtrace {
@@ -22,16 +23,37 @@ struct alignas(64) WideNode {
 };
 static_assert(sizeof(WideNode) == 256);  // 224 bytes of data and padding to four cache lines
 
-/// Up to eight triangles with every |coordinate| at most 2^38. a, b and c are the scene's vertices,
-/// rotated so that a is the vertex between the two shorter edges, which keeps the error bounds of
-/// thin triangles small. Unused slots have NaN in a and are never hit.
+/// Up to eight triangles with every |coordinate| at most 2^38, which share up to sixteen vertices.
+/// The vertices a, b and c of a triangle are the scene's, rotated so that a is the vertex between
+/// the two shorter edges, which keeps the error bounds of thin triangles small. The vertices of
+/// unused slots are NaN, so that these slots are never hit.
 struct alignas(64) TriangleBlock {
-  float a[3][kWidth], b[3][kWidth], c[3][kWidth];  ///< x, y and z of each slot
+  static constexpr unsigned kVertices = 16;
+  /// A block has room for this number of triangles even if they share no vertices.
+  static constexpr unsigned kUnshared = 5;
+
+  float vertices[3][kVertices];     ///< x, y and z of each vertex
+  std::uint8_t corners[3][kWidth];  ///< the indices of a, b and c for each slot
   float largest_edge;  ///< upper bound of every |component| of e1 = fl(b - a) and e2 = fl(c - a)
   float edge_product;  ///< upper bound of every |component of e1| times |component of e2|
-  std::uint32_t id[kWidth];  ///< PrimitiveIds, mostly in a cache line that is read only for hits
+  std::uint32_t id[kWidth];  ///< PrimitiveIds
 };
-static_assert(sizeof(TriangleBlock) == 384);
+static_assert(sizeof(TriangleBlock) == 256);
+
+namespace {
+
+/// Returns a coordinate of a triangle's vertex: 0 (a), 1 (b) or 2 (c).
+inline float coordinate(const TriangleBlock& block, int vertex, std::size_t slot, int axis) {
+  return block.vertices[axis][block.corners[vertex][slot]];
+}
+
+/// True if a slot holds a triangle.
+inline bool is_used(const TriangleBlock& block, std::size_t slot) {
+  const float x = coordinate(block, 0, slot, 0);
+  return x == x;
+}
+
+}  // namespace
 
 /// The triangles of a small tree, each once.
 struct FewTriangles {

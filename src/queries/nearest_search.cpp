@@ -106,7 +106,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       const TriangleBlock& block = reader.block(k);
       target_.kernels.triangle_distances(block, &point.x, distances.data());
       for (std::size_t i = 0; i < kWidth; ++i) {
-        if (build::is_used(block, i) && !(distances[i] > limit_))
+        if (is_used(block, i) && !(distances[i] > limit_))
           consider(block.id[i], build::triangle_in(block, i), p);
       }
     }

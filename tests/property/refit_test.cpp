@@ -372,6 +372,29 @@ TEST(RefitTree, IsNotMadeWhereATreeOfOtherPrimitivesWouldBe) {
   EXPECT_FALSE(refits([](Scene& s) { std::get<Triangle>(s.objects[3].shape) = {{}, {1, 0, 0}}; }));
 }
 
+TEST(RefitTree, OfTrianglesThatMoveApartIsBuiltAnew) {
+  const Mesh sphere = generated::displaced_sphere(2000);
+  Mesh apart;  // each triangle has vertices of its own, at the positions of its neighbors' vertices
+  for (std::uint32_t i = 0; i < sphere.triangles.size(); ++i) {
+    for (const std::uint32_t corner : sphere.triangles[i])
+      apart.positions.push_back(sphere.positions[corner]);
+    apart.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const Scene first = scene_of({apart});
+  Scene second = first;
+  Random random(5);
+  Vec3 way(0);
+  std::size_t points = 0;
+  for_each_point(second, [&](Vec3& p) {
+    if (points++ % 3 == 0) way = random.in_cube(0.1F);
+    p += way;
+  });
+  const auto built = tree_of(second, tree_of(first));
+  EXPECT_FALSE(is_refitted(*built));
+  expect_whole(*built, Primitives(second), *tree_of(second));
+  EXPECT_TRUE(is_refitted(*tree_of(first, built)));  // the blocks have room for all vertices
+}
+
 TEST(RefitTree, PositionsThatAreNotFiniteAreRefused) {
   Scene scene = scene_of({generated::displaced_sphere(2000)});
   const PreparedScene first(scene);

@@ -5,10 +5,13 @@
 
 #include "accel/build/references/presplit.hpp"
 #include "accel/build/references/shape_box.hpp"
+#include "accel/build/wide/wide_tree.hpp"
 #include "support/cases/generated_meshes.hpp"
 #include "support/tree_walk.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -87,15 +90,48 @@ TEST(Tree, EmptyTreeIsANodeWithoutChildren) {
 }
 
 TEST(Tree, OneBlockIsOneLeaf) {
-  for (std::size_t n = 1; n <= 9; ++n) {
-    const Tree tree = check(scene_with({soup(n, 1)}), Place::blocks);
-    if (n <= 8) {
-      EXPECT_EQ(tree.root, child_ref::kTriangles) << n;
+  const auto expect_blocks = [](const Mesh& mesh, bool is_one) {
+    const Tree tree = check(scene_with({mesh}), Place::blocks);
+    if (is_one) {
+      EXPECT_EQ(tree.root, child_ref::kTriangles);
       EXPECT_EQ(tree.nodes.size(), 0);
-    } else {
-      EXPECT_EQ(tree.blocks.size(), 2);
+    }
+    EXPECT_EQ(tree.blocks.size(), is_one ? 1 : 2);
+  };
+  for (std::size_t n = 1; n <= 9; ++n) {
+    SCOPED_TRACE(n);
+    expect_blocks(soup(n, 1), n <= 5);
+    Mesh pairs = soup(n, 1);  // the triangles 2k and 2k + 1 share an edge
+    for (std::uint32_t i = 1; i < n; i += 2) {
+      auto& corners = pairs.triangles.edit()[i];
+      corners = {corners[0], corners[0] - 1, corners[0] - 2};
+    }
+    expect_blocks(pairs, n <= 8);
+  }
+}
+
+TEST(Tree, KeepsTheSignsOfZeros) {
+  const float zeros[] = {0.0F, -0.0F};
+  Scene scene;
+  for (const float x : zeros)
+    for (const float y : zeros)
+      scene.objects.push_back(
+          {.name = "", .shape = Triangle{{x, y, 1}, {1, x, y}, {y, 1, 2 + x + y}}});
+  const Primitives primitives(scene);
+  const Tree tree = build_tree(primitives, {.keeps_duplicates = true});
+  const auto bits = [](const Vec3& v) { return std::bit_cast<std::array<std::uint32_t, 3>>(v); };
+  std::size_t found = 0;
+  for (const TriangleBlock& block : tree.blocks) {
+    for (std::size_t slot = 0; slot < kWidth && is_used(block, slot); ++slot, ++found) {
+      const Triangle stored = build::triangle_in(block, slot);
+      const Triangle own = *primitives.triangle(block.id[slot]);
+      std::vector<std::array<std::uint32_t, 3>> vertices{bits(stored.a), bits(stored.b),
+                                                         bits(stored.c)};
+      EXPECT_TRUE(std::ranges::is_permutation(vertices,
+                                              std::vector{bits(own.a), bits(own.b), bits(own.c)}));
     }
   }
+  EXPECT_EQ(found, scene.objects.size());
 }
 
 TEST(Tree, HoldsMeshesOfAllSizes) {
@@ -385,7 +421,7 @@ TEST(Tree, IsSmall) {
     const Tree tree = build_tree(Primitives(scene), {});
     const double bytes = static_cast<double>(tree.nodes.size() * sizeof(WideNode) +
                                              tree.blocks.size() * sizeof(TriangleBlock));
-    EXPECT_LT(bytes / triangles, 72);
+    EXPECT_LT(bytes / triangles, 48);
   }
 }
 

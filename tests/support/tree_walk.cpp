@@ -1,5 +1,7 @@
 #include "support/tree_walk.hpp"
 
+#include "accel/build/wide/wide_tree.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -164,10 +166,9 @@ void TreeWalk::visit(ChildRef ref, const Bounds& box, int depth) {
 
 void TreeWalk::visit_block(const TriangleBlock& block, const Bounds& box) {
   float largest = 0;
-  for (int i = 0; i < kWidth; ++i) {
-    const Vec3 a(block.a[0][i], block.a[1][i], block.a[2][i]);
-    const Vec3 b(block.b[0][i], block.b[1][i], block.b[2][i]);
-    const Vec3 c(block.c[0][i], block.c[1][i], block.c[2][i]);
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    const Triangle triangle = build::triangle_in(block, i);
+    const Vec3 &a = triangle.a, &b = triangle.b, &c = triangle.c;
     const Vec3 e1 = b - a, e2 = c - a;
     if (std::isnan(a.x)) {
       expect(std::isnan(a.y) && std::isnan(a.z), "an unused place has numbers");

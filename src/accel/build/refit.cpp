@@ -54,14 +54,15 @@ class Refitter {
     bool moved = false;
     for (std::size_t k = begin; k < end; ++k) {
       const TriangleBlock& old = from_.blocks[k];
-      TriangleBlock& block = to_.blocks[k] = empty_block();
+      TriangleBlock& block = to_.blocks[k];
+      BlockFiller filler(block);
       for (std::size_t slot = 0; slot < kWidth && is_used(old, slot); ++slot) {
         const std::optional<Triangle> triangle = primitives_.triangle(old.id[slot]);
         if (!triangle || is_empty(*triangle)) return false;
         const Box own = box_of(*triangle);
         if (!fits_blocks(own) || is_point(own)) return false;
         box.include(own);
-        put(block, slot, old.id[slot], *triangle);
+        if (!filler.add(old.id[slot], *triangle)) return false;
       }
       moved |= !have_same_vertices(old, block);
     }

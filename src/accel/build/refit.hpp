@@ -17,9 +17,10 @@ namespace microtrace::build {
 /// and `unbounded`. A triangle that moved gets a box around the whole triangle, even if the tree
 /// was built with boxes of its pieces. A leaf in which nothing moved keeps its box.
 ///
-/// `references` must refer to all primitives that belong in a tree. Returns nothing in three cases:
+/// `references` must refer to all primitives that belong in a tree. Returns nothing in four cases:
 /// the previous tree has different primitives; a new tree would store a primitive in a different
-/// kind of leaf; or a relative cost would exceed max_growth times its value when the tree was
+/// kind of leaf; triangles of a block have moved apart and have too many vertices; or a relative
+/// cost would exceed max_growth times its value when the tree was
 /// built.
 [[nodiscard]] std::optional<Tree> refitted(const Tree& previous, const References& references,
                                            const Primitives& primitives, double max_growth,

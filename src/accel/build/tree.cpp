@@ -25,8 +25,8 @@ constexpr std::size_t kWorthThreads = 20000;
 void take_out_few(build::References& references) {
   using namespace build;
   const auto begin = references.bounded.begin(), end = references.bounded.end();
-  const auto others = std::stable_partition(
-      begin, end, [](const Reference& r) { return r.weight() == kTriangleWeight; });
+  const auto others =
+      std::stable_partition(begin, end, [](const Reference& r) { return r.is_triangle(); });
   for (auto taken = others; taken != end; ++taken) references.unbounded.push_back(taken->id());
   references.bounded.erase(others, end);
 }
@@ -77,7 +77,7 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   for (std::size_t i = 0; i < boxes.size(); ++i)
     references.bounded.emplace_back(boxes[i], static_cast<PrimitiveId>(i), kInstanceWeight);
   std::vector<build::Box>().swap(boxes);
-  BinaryTree binary = build_binary_tree(std::move(references.bounded),
+  BinaryTree binary = build_binary_tree(std::move(references.bounded), references.triangle_weight,
                                         options.fast ? kBinsForPreview : kMaxBins, pool);
   if (binary.ids.empty()) {
     tree.nodes.push_back(empty_node());

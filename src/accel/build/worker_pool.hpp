@@ -19,6 +19,9 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
+  /// The number of threads, including the calling one.
+  [[nodiscard]] std::size_t size() const { return threads_.size() + 1; }
+
   /// Calls f(0) ... f(count - 1) concurrently, in any order, and returns when all calls are done.
   /// If a call throws, skips calls that have not started and rethrows one of the exceptions.
   void run(std::size_t count, const std::function<void(std::size_t)>& f);

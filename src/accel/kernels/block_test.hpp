@@ -2,6 +2,7 @@
 /// Tests eight triangles against a ray. The result for each triangle is a certain miss, a certain
 /// hit with t in an interval, or uncertain; the fallback decides uncertain lanes.
 
+#include "accel/kernels/block_corners.hpp"
 #include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/inner_ray.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -48,12 +49,11 @@ struct BlockTest {
     const float limit = t_limit < kFarthestHit ? t_limit : kFarthestHit;
     maybe = certain = 0;
     for (int i = 0; i < kWidth; i += N) {
-      const F x = load<N>(block.a[0] + i), y = load<N>(block.a[1] + i), z = load<N>(block.a[2] + i);
-      const F a[3] = {x - ray.o[0], y - ray.o[1], z - ray.o[2]};
-      const F e1[3] = {load<N>(block.b[0] + i) - x, load<N>(block.b[1] + i) - y,
-                       load<N>(block.b[2] + i) - z};
-      const F e2[3] = {load<N>(block.c[0] + i) - x, load<N>(block.c[1] + i) - y,
-                       load<N>(block.c[2] + i) - z};
+      const BlockCorners<N> corners(block, i);
+      const auto& [p, q, r] = corners.of;
+      const F a[3] = {p[0] - ray.o[0], p[1] - ray.o[1], p[2] - ray.o[2]};
+      const F e1[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+      const F e2[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
       const VolumeTest<N, float> test(a, e1, e2, ray.d, block.largest_edge, block.edge_product,
                                       ray.d_sum, t_begin, limit, ray.slack);
       maybe |= test.maybe << i;

@@ -62,11 +62,10 @@ template <int N>
 class BlockBounds {
  public:
   explicit BlockBounds(const TriangleBlock& block) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int k = 0; k < kParts; ++k) {
-        const int i = k * N;
-        const Float<N> a = load<N>(block.a[axis] + i), b = load<N>(block.b[axis] + i),
-                       c = load<N>(block.c[axis] + i);
+    for (int k = 0; k < kParts; ++k) {
+      const BlockCorners<N> corners(block, k * N);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Float<N>&a = corners.of[0][axis], &b = corners.of[1][axis], &c = corners.of[2][axis];
         lo_[k][axis] = lesser(lesser(b, c), a);
         hi_[k][axis] = greater(greater(b, c), a);
       }
@@ -96,12 +95,11 @@ template <int N>
 inline Lanes omitted_triangles(const TriangleBlock& block, const BoxQuery& query) {
   Lanes lanes = lanes_within(block.id, query.omitted_id, query.omitted_id);
   if (query.plane_axis < 0) return lanes;
-  const float(*vertices[])[kWidth] = {block.a, block.b, block.c};
   const Float<N> plane = all<N>(query.plane_at);
   for (int i = 0; i < kWidth; i += N) {
     Lanes within = kAllLanes<N>;
-    for (const auto* vertex : vertices) {
-      const Float<N> x = load<N>(vertex[query.plane_axis] + i);
+    for (const auto& corner : block.corners) {
+      const Float<N> x = picked<N>(block.vertices[query.plane_axis], corner + i);
       within &= less_equal<N>(x, plane) & less_equal<N>(plane, x);
     }
     lanes |= within << i;
@@ -156,20 +154,6 @@ inline Lanes without_clear(Lanes lanes, const Corner (&vertices)[3][3],
   }
   return lanes;
 }
-
-/// The vertices of N triangles of a block, starting at i.
-template <int N>
-struct BlockVertices {
-  Float<N> at[3][3];
-
-  BlockVertices(const TriangleBlock& block, int i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      at[0][axis] = load<N>(block.a[axis] + i);
-      at[1][axis] = load<N>(block.b[axis] + i);
-      at[2][axis] = load<N>(block.c[axis] + i);
-    }
-  }
-};
 
 /// Adds a slot to the results of query i unless there are too many; returns whether there are.
 inline bool adds_too_many(BoxQueries& queries, int i, std::uint32_t slot,

@@ -22,12 +22,15 @@ inline std::uint64_t edge_tests() {
 struct NearTriangle {
   double a[3], e1[3], e2[3];
 
-  NearTriangle(const TriangleBlock& block, int k, const float* o)
-      : a{double{block.a[0][k]} - o[0], double{block.a[1][k]} - o[1], double{block.a[2][k]} - o[2]},
-        e1{double{block.b[0][k]} - block.a[0][k], double{block.b[1][k]} - block.a[1][k],
-           double{block.b[2][k]} - block.a[2][k]},
-        e2{double{block.c[0][k]} - block.a[0][k], double{block.c[1][k]} - block.a[1][k],
-           double{block.c[2][k]} - block.a[2][k]} {}
+  NearTriangle(const TriangleBlock& block, int k, const float* o) {
+    const std::size_t slot = static_cast<std::size_t>(k);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double first = coordinate(block, 0, slot, axis);
+      a[axis] = first - o[axis];
+      e1[axis] = coordinate(block, 1, slot, axis) - first;
+      e2[axis] = coordinate(block, 2, slot, axis) - first;
+    }
+  }
 };
 
 inline double sum_of_magnitudes(const double (&x)[3]) {

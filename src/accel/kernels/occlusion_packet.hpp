@@ -190,6 +190,7 @@ class OcclusionPacketWalk {
   }
 
   void meet_block(const TriangleBlock& block, std::uint64_t rays) {
+    const BlockEdges<kNodeLanes> edges(block);
     for_each_lanes(rays, [&](int i, Lanes lanes) {
       const int at = first_ + i;
       F o[3], d[3];
@@ -200,11 +201,11 @@ class OcclusionPacketWalk {
       const F begin = load<N>(stream_.t_begin + at), t_max = load<N>(stream_.best_hi + at);
       const F limit = lesser(t_max, all<N>(kFarthestHit)), d_sum = load<N>(stream_.d_sum + at);
       for (int k = 0; k < kWidth; ++k) {
-        const float x = block.a[0][k], y = block.a[1][k], z = block.a[2][k];
+        const float x = edges.a[0][k];
         if (!(x == x)) break;  // unused slots of the block have NaN
-        const F a[3] = {x - o[0], y - o[1], z - o[2]};
-        const float e1[3] = {block.b[0][k] - x, block.b[1][k] - y, block.b[2][k] - z};
-        const float e2[3] = {block.c[0][k] - x, block.c[1][k] - y, block.c[2][k] - z};
+        const F a[3] = {x - o[0], edges.a[1][k] - o[1], edges.a[2][k] - o[2]};
+        const float e1[3] = {edges.e1[0][k], edges.e1[1][k], edges.e1[2][k]};
+        const float e2[3] = {edges.e2[0][k], edges.e2[1][k], edges.e2[2][k]};
         const VolumeTest<N, F> test(a, e1, e2, d, block.largest_edge, block.edge_product, d_sum,
                                     begin, limit);
         Lanes maybe = test.maybe & lanes;

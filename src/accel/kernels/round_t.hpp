@@ -127,10 +127,11 @@ class PacketRounding {
       place_ = slot;
       const TriangleBlock& block = tree_.blocks[slot / kWidth];
       const std::uint32_t k = slot % kWidth;
-      plane_ = {o_,
-                {block.a[0][k], block.a[1][k], block.a[2][k]},
-                {block.b[0][k], block.b[1][k], block.b[2][k]},
-                {block.c[0][k], block.c[1][k], block.c[2][k]}};
+      const auto vertex = [&](int corner) {
+        return Double3<double>{coordinate(block, corner, k, 0), coordinate(block, corner, k, 1),
+                               coordinate(block, corner, k, 2)};
+      };
+      plane_ = {o_, vertex(0), vertex(1), vertex(2)};
       const double sum = greater(greater(plane_.sum.x, plane_.sum.y), plane_.sum.z);
       size_error_ = kSlopeRoundings * kRounding * (sum * double{packet_.d_sum}) + kUnderflow;
     }
@@ -141,20 +142,19 @@ class PacketRounding {
   // ray `other`.
   Lanes round_several(int other, int i) const {
     float a[3][N], b[3][N], c[3][N];
-    const auto put = [&](int lane, const auto& triangles, std::uint32_t k) {
-      for (int axis = 0; axis < 3; ++axis) {
-        a[axis][lane] = triangles.a[axis][k];
-        b[axis][lane] = triangles.b[axis][k];
-        c[axis][lane] = triangles.c[axis][k];
-      }
-    };
     for (int lane = 0; lane < N; ++lane) {
       const int ray = packet_.best_slot[i + lane] == kNoSlot ? other : i + lane;
       const std::uint32_t slot = packet_.best_slot[ray];
-      if (slot == kPlacedSlot)
-        put(lane, packet_.placed, static_cast<std::uint32_t>(ray));
-      else
-        put(lane, tree_.blocks[slot / kWidth], slot % kWidth);
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto vertex = [&](const float(&placed)[3][kHitBatch], int k) {
+          return slot == kPlacedSlot
+                     ? placed[axis][ray]
+                     : coordinate(tree_.blocks[slot / kWidth], k, slot % kWidth, axis);
+        };
+        a[axis][lane] = vertex(packet_.placed.a, 0);
+        b[axis][lane] = vertex(packet_.placed.b, 1);
+        c[axis][lane] = vertex(packet_.placed.c, 2);
+      }
     }
     const auto vertex = [](const float(&p)[3][N]) {
       return Double3<Double<N>>{widened<N>(p[0]), widened<N>(p[1]), widened<N>(p[2])};

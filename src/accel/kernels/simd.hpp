@@ -6,6 +6,33 @@
 namespace microtrace {
 namespace {
 
+/// Returns N of sixteen numbers, chosen by their indices.
+template <int N>
+inline Float<N> picked(const float* sixteen, const std::uint8_t* indices) {
+#if defined(__AVX2__)
+  if constexpr (N == 4 || N == 8) {
+    std::uint64_t bytes = 0;
+    __builtin_memcpy(&bytes, indices, N);
+    const __m256i index = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(bytes)));
+    const __m256 low = _mm256_loadu_ps(sixteen), high = _mm256_loadu_ps(sixteen + 8);
+#if defined(__AVX512VL__)
+    const __m256 v = _mm256_permutex2var_ps(low, index, high);
+#else
+    const __m256 v = _mm256_blendv_ps(_mm256_permutevar8x32_ps(low, index),
+                                      _mm256_permutevar8x32_ps(high, index),
+                                      _mm256_castsi256_ps(_mm256_slli_epi32(index, 28)));
+#endif
+    if constexpr (N == 8)
+      return v;
+    else
+      return _mm256_castps256_ps128(v);
+  }
+#endif
+  Float<N> v{};
+  for (int i = 0; i < N; ++i) set_lane(v, i, sixteen[indices[i]]);
+  return v;
+}
+
 /// Stores a number in the elements of p that belong to the given lanes.
 template <int N>
 inline void store_where(Lanes lanes, std::uint32_t number, std::uint32_t* p) {

@@ -220,7 +220,6 @@ class StreamWalk {
   struct Place {
     std::uintptr_t begin;  // a number, because the array is null if there is no data of this kind
     std::size_t mask, scale;
-    std::size_t last;  // offset of the last cache line to prefetch, in bytes
   };
 
   // Always inlined, because GCC removes calls of a function that only prefetches. Looks the kind up
@@ -246,7 +245,6 @@ class StreamWalk {
     __builtin_prefetch(reinterpret_cast<const void*>(p + 64));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 128));
     __builtin_prefetch(reinterpret_cast<const void*>(p + 192));
-    __builtin_prefetch(reinterpret_cast<const void*>(p + place.last));
     // NOLINTEND(performance-no-int-to-ptr)
   }
 
@@ -260,9 +258,9 @@ class StreamWalk {
   ChildRef next_[kInFlight];  // the subtree that the ray in each slot visits next
   static_assert(sizeof(TriangleBlock) % 8 == 0);
   const Place places_[4] = {
-      {reinterpret_cast<std::uintptr_t>(tree_.nodes), ~child_ref::kKind, sizeof(WideNode), 192},
+      {reinterpret_cast<std::uintptr_t>(tree_.nodes), ~child_ref::kKind, sizeof(WideNode)},
       {reinterpret_cast<std::uintptr_t>(tree_.blocks), ~child_ref::kKind & ~7U,
-       sizeof(TriangleBlock) / 8, 256},
+       sizeof(TriangleBlock) / 8},
       {},
       {}};
   MaybeHit hits_[kInFlight + 1];

@@ -59,7 +59,7 @@ inline bool adds_too_many(BoxQueries& queries, int i, const BoxQuery& query,
     for (int k = 0; k < kWidth; k += N) {
       const Lanes these = lanes & kAllLanes<N> << k;
       lanes &= ~these;
-      lanes |= without_clear<N>(these >> k, BlockVertices<N>(block, k).at, box) << k;
+      lanes |= without_clear<N>(these >> k, BlockCorners<N>(block, k).of, box) << k;
     }
   }
   for (; lanes != 0; lanes &= lanes - 1) {

@@ -49,7 +49,7 @@ void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
       }
       const TriangleBlock& block = reader.block(k);
       for (std::size_t i = 0; i < kWidth; ++i)
-        if (build::is_used(block, i)) f(block.id[i]);
+        if (is_used(block, i)) f(block.id[i]);
     }
   }
 }

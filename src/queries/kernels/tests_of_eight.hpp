@@ -2,6 +2,7 @@
 /// The functions of QueryKernels, which process N lanes of float64 at a time.
 
 #include "accel/filters/roundings.hpp"
+#include "accel/kernels/block_corners.hpp"
 #include "queries/kernels/kernel.hpp"
 #include "simd/vectors.hpp"
 
@@ -70,11 +71,12 @@ unsigned passed(const TriangleBlock& block, const LineInterval& ray) {
   const double d_sum = magnitude(ray.d[0]) + magnitude(ray.d[1]) + magnitude(ray.d[2]);
   unsigned lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
+    const BlockCorners<N> corners(block, i);
     V p[3], q[3], r[3], size{};
     for (int axis = 0; axis < 3; ++axis) {
-      p[axis] = widened<N>(block.a[axis] + i) - ray.o[axis];
-      q[axis] = widened<N>(block.b[axis] + i) - ray.o[axis];
-      r[axis] = widened<N>(block.c[axis] + i) - ray.o[axis];
+      p[axis] = to_double<N>(corners.of[0][axis]) - ray.o[axis];
+      q[axis] = to_double<N>(corners.of[1][axis]) - ray.o[axis];
+      r[axis] = to_double<N>(corners.of[2][axis]) - ray.o[axis];
       size = greater(magnitude(p[axis]), size);
       size = greater(magnitude(q[axis]), size);
       size = greater(magnitude(r[axis]), size);
@@ -116,11 +118,12 @@ template <int N>
 void triangle_distances(const TriangleBlock& block, const double* p, double* squared) {
   using V = Double<N>;
   for (int i = 0; i < kWidth; i += N) {
+    const BlockCorners<N> corners(block, i);
     V sum{}, size{}, from_a{}, from_b{}, from_c{}, squared_g{};
     for (int axis = 0; axis < 3; ++axis) {
-      const V x = widened<N>(block.a[axis] + i) - p[axis];
-      const V y = widened<N>(block.b[axis] + i) - p[axis];
-      const V z = widened<N>(block.c[axis] + i) - p[axis];
+      const V x = to_double<N>(corners.of[0][axis]) - p[axis];
+      const V y = to_double<N>(corners.of[1][axis]) - p[axis];
+      const V z = to_double<N>(corners.of[2][axis]) - p[axis];
       const V least = lesser(x, lesser(y, z)), greatest = greater(x, greater(y, z));
       const V gap = greater(greater(least, -greatest), V{});
       sum += gap * gap;

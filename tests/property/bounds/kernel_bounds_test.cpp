@@ -46,13 +46,14 @@ class OneTriangle {
         scene_(scene_of(triangle_)),
         primitives_(scene_),
         root_(exact::first_hit(triangle_, ray_)) {
-    std::ranges::fill(block_.a[0], std::nanf(""));
-    const auto put = [](const Vec3& p, float(&x)[3][kWidth]) {
-      for (int k = 0; k < 3; ++k) x[k][0] = p[k];
-    };
-    put(triangle_.a, block_.a);
-    put(triangle_.b, block_.b);
-    put(triangle_.c, block_.c);
+    constexpr std::uint8_t kUnused = 3;
+    const std::array vertices{triangle_.a, triangle_.b, triangle_.c, Vec3(std::nanf(""))};
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      for (int k = 0; k < 3; ++k) block_.vertices[k][i] = vertices[i][k];
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      std::ranges::fill(block_.corners[i], kUnused);
+      block_.corners[i][0] = i;
+    }
     const float e1 = largest_component(triangle_.b - triangle_.a),
                 e2 = largest_component(triangle_.c - triangle_.a);
     block_.largest_edge = std::max(e1, e2);

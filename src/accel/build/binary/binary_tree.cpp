@@ -19,8 +19,6 @@ constexpr std::size_t kSubtreeSize = std::size_t{1} << 14U;
 // follow.
 constexpr unsigned kDepthLimit = 58;
 
-constexpr std::uint32_t kMaxLeafWeight = 8;
-
 // The references of a node that is not yet split. They are stored in one of two arrays, in the
 // range that they keep in the final order. Splitting moves them to the other array.
 struct Set {
@@ -75,9 +73,11 @@ int bins_for(std::size_t count, int most) {
 
 class Builder {
  public:
-  Builder(PageVector<Reference> references, int bins, WorkerPool& pool)
+  Builder(PageVector<Reference> references, std::uint32_t triangle_weight, int bins,
+          WorkerPool& pool)
       : references_(std::move(references)), max_bins_(bins), pool_(pool) {
     tree_.ids.resize(references_.size());
+    tree_.triangle_weight = model_.triangle_weight = triangle_weight;
   }
 
   BinaryTree build() {
@@ -115,7 +115,7 @@ class Builder {
     PageVector<Reference> other(references_.size() > kSubtreeSize ? references_.size() : 0);
     const Arrays arrays{.data = {references_.data(), other.data()}};
     std::vector<Set> open{whole(arrays)}, small;
-    area_ = AreaMeasure(tree_.root.box);
+    model_.area = AreaMeasure(tree_.root.box);
     while (!open.empty()) {
       const Set set = open.back();
       open.pop_back();
@@ -245,27 +245,27 @@ class Builder {
   // kDepthLimit.
   CollapseCosts build_alone(const Set& set, Subtree& subtree) {
     BinaryNode& node = *set.node;
-    const bool of_one_kind = node.weight == node.count && node.weight <= kMaxLeafWeight;
-    if (of_one_kind || node.count <= 1) {
+    const bool is_block = has_triangles(node, tree_.triangle_weight) && blocks(node.weight) == 1;
+    if (is_block || node.count <= 1) {
       const auto leaf = subtree.arrays.of(set);
       for (std::size_t i = 0; i < leaf.size(); ++i) tree_.ids[node.begin + i] = leaf[i].id();
-      return costs_of_leaf(node, area_);
+      return costs_of_leaf(node, model_);
     }
     const Halves sets = split_alone(set, subtree);
     const CollapseCosts left = build_alone(sets[0], subtree);
-    return plan_collapse(node, area_, left, build_alone(sets[1], subtree));
+    return plan_collapse(node, model_, left, build_alone(sets[1], subtree));
   }
 
   // Plans the nodes above the subtrees, whose costs `next` yields from left to right.
   CollapseCosts plan_top(BinaryNode& node, std::vector<CollapseCosts>::const_iterator& next) {
     if (node.count <= kSubtreeSize) return *next++;
     const CollapseCosts left = plan_top(node.children[0], next);
-    return plan_collapse(node, area_, left, plan_top(node.children[1], next));
+    return plan_collapse(node, model_, left, plan_top(node.children[1], next));
   }
 
   PageVector<Reference> references_;
   BinaryTree tree_;
-  AreaMeasure area_{Box()};
+  CollapseModel model_;
   int max_bins_;
   WorkerPool& pool_;
 };
@@ -288,8 +288,9 @@ void NodeArena::Unmap::operator()(BinaryNode* chunk) const {
   unmap_pages(chunk, kChunk * sizeof(BinaryNode));
 }
 
-BinaryTree build_binary_tree(PageVector<Reference> references, int bins, WorkerPool& pool) {
-  return Builder(std::move(references), bins, pool).build();
+BinaryTree build_binary_tree(PageVector<Reference> references, std::uint32_t triangle_weight,
+                             int bins, WorkerPool& pool) {
+  return Builder(std::move(references), triangle_weight, bins, pool).build();
 }
 
 }  // namespace microtrace::build

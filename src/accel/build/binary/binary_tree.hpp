@@ -46,6 +46,11 @@ static_assert(sizeof(BinaryNode) == 64);  // large scenes have one for each four
   return node.count == 1 && node.weight == kInstanceWeight;
 }
 
+/// True if all primitives of a node are triangles, which have this weight.
+[[nodiscard]] inline bool has_triangles(const BinaryNode& node, std::uint32_t triangle_weight) {
+  return node.weight == node.count * triangle_weight;
+}
+
 /// Allocates nodes with stable addresses. Their memory returns to the system with the arena.
 class NodeArena {
  public:
@@ -74,12 +79,14 @@ struct BinaryTree {
   NodeArena top;                        ///< nodes built by all threads together
   std::vector<BinarySubtree> subtrees;  ///< in ascending order of `begin`
   PageVector<PrimitiveId> ids;
+  std::uint32_t triangle_weight = kTriangleWeight;  ///< see References
 };
 
 /// Splits the references until each leaf holds one kind of primitive and at most eight triangles or
 /// one other primitive, and plans the collapse of all nodes. The result depends only on the
 /// references and their order. `bins` is at most kMaxBins.
-[[nodiscard]] BinaryTree build_binary_tree(PageVector<Reference> references, int bins,
+[[nodiscard]] BinaryTree build_binary_tree(PageVector<Reference> references,
+                                           std::uint32_t triangle_weight, int bins,
                                            WorkerPool& pool);
 
 }  // namespace microtrace::build

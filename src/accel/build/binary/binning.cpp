@@ -3,10 +3,10 @@
 namespace microtrace::build {
 namespace {
 
-// The expected number of blocks of a set that will be split further. It exceeds weight / 8, because
-// splits often leave blocks partly filled.
+// The expected number of blocks of a set that will be split further. It exceeds weight / 16,
+// because splits often leave blocks partly filled.
 float expected_blocks(const Load& load) {
-  return static_cast<float>(blocks(load.weight)) + 0.1F * static_cast<float>(load.weight);
+  return static_cast<float>(blocks(load.weight)) + 0.05F * static_cast<float>(load.weight);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ struct Load {
 
 /// Returns the number of blocks for a weight (see kTriangleWeight).
 [[nodiscard]] inline std::uint32_t blocks(std::uint32_t weight) {
-  return weight / 8 + (weight % 8 != 0 ? 1 : 0);
+  return weight / kOtherWeight + (weight % kOtherWeight != 0 ? 1 : 0);
 }
 
 /// A split of a set: references in bins up to `last_bin` along `axis` go to the left part.

@@ -77,11 +77,8 @@ class BoxFinder {
       }
       TriangleBlock block;
       kernels_.scene_block(instance_, tree_.blocks[k], block);
-      for (std::size_t i = 0; i < kWidth && is_used(block, i); ++i) {
-        box_.include(box_of(Triangle{.a = {block.a[0][i], block.a[1][i], block.a[2][i]},
-                                     .b = {block.b[0][i], block.b[1][i], block.b[2][i]},
-                                     .c = {block.c[0][i], block.c[1][i], block.c[2][i]}}));
-      }
+      for (std::size_t i = 0; i < kWidth && is_used(block, i); ++i)
+        box_.include(box_of(triangle_in(block, i)));
     }
   }
 

@@ -115,7 +115,7 @@ class Splitter {
 
   void consider(std::size_t slot) {
     const Reference& r = references_[slot];
-    if (r.weight() != kTriangleWeight) return;
+    if (!r.is_triangle()) return;
     const float importance = std::ldexp(1.0F, -grid_.level(r.box));
     const float size = area_(r.box);
     if (size * importance < least_) return;

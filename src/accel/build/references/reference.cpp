@@ -6,6 +6,7 @@
 
 #include <microtrace/error.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace microtrace::build {
@@ -13,7 +14,7 @@ namespace {
 
 // The maximum total weight (see kTriangleWeight) that leaf references can address, with room for
 // split triangles.
-constexpr std::uint64_t kMostWeight = std::uint64_t{1} << 30U;
+constexpr std::uint64_t kMostWeight = std::uint64_t{1} << 31U;
 
 // Hashes three numbers with the multipliers and shifts of SplitMix64 (Steele, Lea, Flood: Fast
 // splittable pseudorandom number generators, 2014).
@@ -24,22 +25,37 @@ std::uint64_t hash_of(const Vec3& p) {
   return hash ^ hash >> 31U;
 }
 
-// Hashes the set of vertices, independent of their order.
-std::uint32_t hash_of(const Triangle& t) {
-  std::uint64_t sum = hash_of(t.a);
-  if (t.b != t.a) sum += hash_of(t.b);
-  if (t.c != t.a && t.c != t.b) sum += hash_of(t.c);
-  return static_cast<std::uint32_t>(sum >> 32U);
-}
+// Estimates from a sample of the vertices how many triangles share one.
+class Sharing {
+ public:
+  explicit Sharing(std::size_t triangles) : mask_(std::bit_ceil(triangles / kSamples + 1) - 1) {}
+
+  void add(std::uint64_t hash) {
+    if ((hash & mask_) == 0 && hashes_.size() < 16 * kSamples) hashes_.push_back(hash);
+  }
+  // True if eight triangles would mostly have too many vertices for a block.
+  [[nodiscard]] bool is_rare() {
+    const std::size_t uses = hashes_.size();
+    std::ranges::sort(hashes_);
+    hashes_.erase(std::unique(hashes_.begin(), hashes_.end()), hashes_.end());
+    return 4 * uses < 5 * hashes_.size();
+  }
+
+ private:
+  static constexpr std::size_t kSamples = 4096;
+
+  std::uint64_t mask_;
+  std::vector<std::uint64_t> hashes_;  // one for each use of a vertex of the sample
+};
 
 class Gatherer {
  public:
-  explicit Gatherer(References& to) : to_(to) {}
+  Gatherer(References& to, Sharing& sharing) : to_(to), sharing_(sharing) {}
 
   void operator()(PrimitiveId id, const Triangle& t) {
     if (is_empty(t)) return;
     const Box box = box_of(t);
-    add(box, id, fits_blocks(box) ? kTriangleWeight : kOtherWeight, hash_of(t));
+    add(box, id, fits_blocks(box) ? kTriangleWeight : kOtherWeight, hash(t));
   }
   void operator()(PrimitiveId id, const Sphere& s) { add_curved(id, s); }
   void operator()(PrimitiveId id, const Disc& d) { add_curved(id, d); }
@@ -62,6 +78,20 @@ class Gatherer {
     }
   }
 
+  // Hashes the set of vertices, independent of their order.
+  std::uint32_t hash(const Triangle& t) {
+    std::uint64_t sum = 0;
+    const auto add = [&](const Vec3& vertex) {
+      const std::uint64_t hash = hash_of(vertex);
+      sharing_.add(hash);
+      sum += hash;
+    };
+    add(t.a);
+    if (t.b != t.a) add(t.b);
+    if (t.c != t.a && t.c != t.b) add(t.c);
+    return static_cast<std::uint32_t>(sum >> 32U);
+  }
+
   void add(const Box& box, PrimitiveId id, std::uint32_t weight, std::uint32_t hash) {
     to_.bounded.emplace_back(box, id, weight);
     to_.hashes.push_back(hash);
@@ -70,6 +100,7 @@ class Gatherer {
   }
 
   References& to_;
+  Sharing& sharing_;
 };
 
 }  // namespace
@@ -88,8 +119,14 @@ References gather(const Primitives& primitives, const std::vector<bool>& is_inst
   // Pages that no pieces are written to take no memory.
   references.bounded.reserve(count + most_pieces(count));
   references.hashes.reserve(count);
+  Sharing sharing(count);
   for (std::size_t i = 0; i < objects.size(); ++i)
-    if (!is_instance[i]) primitives.for_each_of(i, Gatherer(references));
+    if (!is_instance[i]) primitives.for_each_of(i, Gatherer(references, sharing));
+  if (sharing.is_rare()) {
+    references.triangle_weight = kUnsharedWeight;
+    for (Reference& r : references.bounded)
+      if (r.is_triangle()) r = Reference(r.box, r.id(), kUnsharedWeight);
+  }
   std::uint64_t weight = 0;
   for (const Reference& r : references.bounded) weight += r.weight();
   if (weight > kMostWeight)
@@ -99,8 +136,7 @@ References gather(const Primitives& primitives, const std::vector<bool>& is_inst
 
 void set_points_apart(PageVector<Reference>& references) {
   for (Reference& r : references) {
-    if (r.weight() == kTriangleWeight && is_point(r.box))
-      r = Reference(r.box, r.id(), kOtherWeight);
+    if (r.is_triangle() && is_point(r.box)) r = Reference(r.box, r.id(), kOtherWeight);
   }
 }
 

@@ -8,12 +8,14 @@
 
 namespace microtrace::build {
 
-/// The weight of a primitive is its cost in eighths of a block test. Eight triangles are tested at
-/// a time, but other primitives one at a time.
-inline constexpr std::uint32_t kTriangleWeight = 1;
-inline constexpr std::uint32_t kOtherWeight = 8;
+/// The weight of a primitive is its cost in sixteenths of a block test. Other primitives than
+/// triangles are tested one at a time. All triangles of a tree have the same weight: either eight
+/// fill a block, or five, if most of them share no vertices.
+inline constexpr std::uint32_t kTriangleWeight = 2;
+inline constexpr std::uint32_t kUnsharedWeight = 3;
+inline constexpr std::uint32_t kOtherWeight = 16;
 /// More than a leaf may hold, so instances are never in leaves with other primitives.
-inline constexpr std::uint32_t kInstanceWeight = 72;
+inline constexpr std::uint32_t kInstanceWeight = 144;
 
 /// Triangles with a coordinate of larger magnitude are not stored in blocks.
 inline constexpr float kLargestInBlocks = 0x1p38F;
@@ -30,6 +32,7 @@ struct Reference {
   }
   [[nodiscard]] PrimitiveId id() const { return std::bit_cast<std::uint32_t>(box.lo[3]); }
   [[nodiscard]] std::uint32_t weight() const { return std::bit_cast<std::uint32_t>(box.hi[3]); }
+  [[nodiscard]] bool is_triangle() const { return weight() < kOtherWeight; }
 };
 static_assert(sizeof(Reference) == 32);
 
@@ -44,6 +47,7 @@ struct References {
   /// A hash for each bounded reference, equal for triangles with the same vertices.
   PageVector<std::uint32_t> hashes;
   std::vector<PrimitiveId> unbounded;
+  std::uint32_t triangle_weight = kTriangleWeight;  ///< or kUnsharedWeight
   double area = 0;  ///< half the surface area of all bounded primitives' boxes
 };
 

@@ -22,29 +22,31 @@ Distribution best_distribution(const CollapseCosts& left, const CollapseCosts& r
   return best;
 }
 
-float leaf_cost(const BinaryNode& node, float area) {
+float leaf_cost(const BinaryNode& node, const CollapseModel& model) {
+  const float area = model.area(node.box);
   if (is_instance(node)) return area * kInstanceCost;
-  const std::uint32_t entries = blocks(node.weight);
-  const bool of_one_kind = node.weight == node.count * kTriangleWeight ||
-                           node.weight == node.count * std::uint64_t{kOtherWeight};
-  if (!of_one_kind || entries > child_ref::kMaxLeafCount)
-    return std::numeric_limits<float>::infinity();
-  return area * kBlockCost * static_cast<float>(entries);
+  const bool of_triangles = has_triangles(node, model.triangle_weight);
+  const bool of_one_kind = of_triangles || node.weight == node.count * std::uint64_t{kOtherWeight};
+  // More triangles would need too many blocks if they shared no vertices.
+  const std::uint32_t most =
+      child_ref::kMaxLeafCount * (of_triangles ? TriangleBlock::kUnshared : 1);
+  if (!of_one_kind || node.count > most) return std::numeric_limits<float>::infinity();
+  return area * kBlockCost * static_cast<float>(blocks(node.weight));
 }
 
 }  // namespace
 
-CollapseCosts costs_of_leaf(const BinaryNode& node, const AreaMeasure& area) {
+CollapseCosts costs_of_leaf(const BinaryNode& node, const CollapseModel& model) {
   CollapseCosts costs;
-  costs.fill(leaf_cost(node, area(node.box)));
+  costs.fill(leaf_cost(node, model));
   return costs;
 }
 
-CollapseCosts plan_collapse(BinaryNode& node, const AreaMeasure& area, const CollapseCosts& left,
+CollapseCosts plan_collapse(BinaryNode& node, const CollapseModel& model, const CollapseCosts& left,
                             const CollapseCosts& right) {
-  const float own_area = area(node.box), as_leaf = leaf_cost(node, own_area);
+  const float as_leaf = leaf_cost(node, model);
   const Distribution whole = best_distribution(left, right, kWidth);
-  const float as_node = own_area * kNodeCost + whole.cost;
+  const float as_node = model.area(node.box) * kNodeCost + whole.cost;
   node.plan.set_to_left(kWidth, whole.to_left);
   node.plan.set_leaf(as_leaf <= as_node);
   CollapseCosts costs{std::min(as_leaf, as_node)};

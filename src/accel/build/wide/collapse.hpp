@@ -15,11 +15,17 @@ inline constexpr float kBlockCost = 1;
 /// nodes above them matters.
 inline constexpr float kInstanceCost = 8;
 
+/// What the costs of all nodes of a tree depend on.
+struct CollapseModel {
+  AreaMeasure area{Box()};
+  std::uint32_t triangle_weight = kTriangleWeight;  ///< see References
+};
+
 /// Computes the costs of a node without children.
-[[nodiscard]] CollapseCosts costs_of_leaf(const BinaryNode& node, const AreaMeasure& area);
+[[nodiscard]] CollapseCosts costs_of_leaf(const BinaryNode& node, const CollapseModel& model);
 
 /// Computes the plan and the costs of a node whose children have these costs.
-[[nodiscard]] CollapseCosts plan_collapse(BinaryNode& node, const AreaMeasure& area,
+[[nodiscard]] CollapseCosts plan_collapse(BinaryNode& node, const CollapseModel& model,
                                           const CollapseCosts& left, const CollapseCosts& right);
 
 /// The children of a wide node: at most eight subtrees that together contain all of a binary node.

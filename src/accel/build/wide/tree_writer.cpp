@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <span>
 
 namespace microtrace::build {
@@ -29,60 +30,41 @@ struct Places {
   }
 };
 
-bool is_of_triangles(const BinaryNode& leaf) {
-  return leaf.weight == leaf.count * kTriangleWeight;
-}
+// The blocks of several leaves, and the number of blocks of each.
+struct Filled {
+  PageVector<TriangleBlock> blocks;
+  std::vector<std::uint8_t> counts;
+};
 
-Places leaf_size(const BinaryNode& leaf) {
-  if (is_instance(leaf)) return {};
-  if (is_of_triangles(leaf)) return {.blocks = blocks(leaf.weight)};
-  return {.others = leaf.count};
-}
-
-Places size_as_child(const BinaryNode& node) {
-  return node.plan.is_leaf() ? leaf_size(node) : Places{.nodes = 1};
-}
-
-// Returns the size of an inner node's subtree without the node itself.
-Places size_below(const BinaryNode& node) {
-  Places size;
-  for (const BinaryNode* child : WideChildren(node)) {
-    size += size_as_child(*child);
-    if (!child->plan.is_leaf()) size += size_below(*child);
-  }
-  return size;
-}
+// Where write_node continues in the arrays of a tree.
+struct Cursor {
+  Places next;
+  const std::uint8_t* counts = nullptr;  // of the blocks of the next leaves, if they are filled
+};
 
 class Writer {
  public:
   Writer(const Primitives& primitives, Tree& tree) : primitives_(primitives), tree_(tree) {}
 
   void write(BinaryTree& planned, WorkerPool& pool) {
-    ids_ = planned.ids.data();
+    ids_ = planned.ids;
+    triangle_weight_ = planned.triangle_weight;
     const BinaryNode& root = planned.root;
-    Places next;
+    Cursor cursor;
     if (root.plan.is_leaf()) {
-      resize(leaf_size(root));
-      tree_.root = write_leaf(root, next);
+      reserve(leaf_size(root));
+      tree_.root = write_leaf(root, cursor);
       return;
     }
     Places size = collect_jobs(root);
     pool.run(jobs_.size(), [&](std::size_t i) { jobs_[i].size = size_below(*jobs_[i].node); });
     for (const Job& job : jobs_) size += job.size;
     ++size.nodes;
-    resize(size);
-    next.nodes = 1;
+    reserve(size);
+    cursor.next.nodes = 1;
     tree_.root = 0;
-    write_node(root, 0, next);
-    std::vector<std::atomic<std::uint32_t>> open(planned.subtrees.size());  // jobs of each subtree
-    for (const Job& job : jobs_) ++open[subtree_of(job, planned)];
-    pool.run(jobs_.size(), [&](std::size_t i) {
-      const std::size_t subtree = subtree_of(jobs_[i], planned);
-      Places begin = jobs_[i].begin;
-      write_node(*jobs_[i].node, jobs_[i].slot, begin);
-      // The blocks take several times the memory of the nodes, which is released meanwhile.
-      if (--open[subtree] == 0) planned.subtrees[subtree].nodes = {};
-    });
+    write_node(root, 0, cursor);
+    write_jobs(planned, pool);
   }
 
  private:
@@ -92,6 +74,53 @@ class Writer {
     Places size, begin;
     std::size_t slot = 0;
   };
+
+  // Writes all jobs, several at a time. The blocks of a job come after those of the jobs before it,
+  // and their number is known only after they are filled.
+  void write_jobs(BinaryTree& planned, WorkerPool& pool) {
+    std::vector<std::atomic<std::uint32_t>> open(planned.subtrees.size());  // jobs of each subtree
+    for (const Job& job : jobs_) ++open[subtree_of(job, planned)];
+    std::vector<Filled> filled(std::min(jobs_.size(), 2 * pool.size()));
+    for (std::size_t first = 0; first < jobs_.size(); first += filled.size()) {
+      const std::span<Job> jobs =
+          std::span(jobs_).subspan(first, std::min(filled.size(), jobs_.size() - first));
+      pool.run(jobs.size(), [&](std::size_t i) { fill(*jobs[i].node, filled[i]); });
+      for (std::size_t i = 0; i < jobs.size(); ++i) {
+        jobs[i].begin.blocks = tree_.blocks.size();
+        add_blocks(filled[i].blocks.size());
+      }
+      pool.run(jobs.size(), [&](std::size_t i) {
+        const Job& job = jobs[i];
+        std::ranges::copy(filled[i].blocks, tree_.blocks.data() + job.begin.blocks);
+        Cursor cursor{.next = job.begin, .counts = filled[i].counts.data()};
+        write_node(*job.node, job.slot, cursor);
+        // The blocks take several times the memory of the nodes, which is released meanwhile.
+        const std::size_t subtree = subtree_of(job, planned);
+        if (--open[subtree] == 0) planned.subtrees[subtree].nodes = {};
+      });
+    }
+  }
+
+  // Returns the size of a leaf, with an upper bound of the number of blocks.
+  [[nodiscard]] Places leaf_size(const BinaryNode& leaf) const {
+    if (is_instance(leaf)) return {};
+    if (!has_triangles(leaf, triangle_weight_)) return {.others = leaf.count};
+    return {.blocks = (leaf.count + TriangleBlock::kUnshared - 1) / TriangleBlock::kUnshared};
+  }
+
+  [[nodiscard]] Places size_as_child(const BinaryNode& node) const {
+    return node.plan.is_leaf() ? leaf_size(node) : Places{.nodes = 1};
+  }
+
+  // Returns the size of an inner node's subtree without the node itself.
+  [[nodiscard]] Places size_below(const BinaryNode& node) const {
+    Places size;
+    for (const BinaryNode* child : WideChildren(node)) {
+      size += size_as_child(*child);
+      if (!child->plan.is_leaf()) size += size_below(*child);
+    }
+    return size;
+  }
 
   static std::size_t subtree_of(const Job& job, const BinaryTree& planned) {
     const auto after =
@@ -119,18 +148,26 @@ class Writer {
     return size;
   }
 
-  void resize(const Places& size) {
-    if (size.nodes > child_ref::kMaxNodes || size.blocks > child_ref::kMaxLeafEntries ||
-        size.others > child_ref::kMaxLeafEntries)
-      throw Error(ErrorKind::limit, "", "the scene has too many triangles; leave some out");
+  void reserve(const Places& size) {
+    check(size.nodes <= child_ref::kMaxNodes && size.others <= child_ref::kMaxLeafEntries);
     tree_.nodes.resize(size.nodes);
-    tree_.blocks.resize(size.blocks);
     tree_.others.resize(size.others);
+    tree_.blocks.reserve(size.blocks);  // pages that no blocks are written to take no memory
   }
 
-  // Writes a node to nodes[slot] and its subtree to the positions from `next` on, which is
+  void add_blocks(std::size_t count) {
+    tree_.blocks.resize(tree_.blocks.size() + count);
+    check(tree_.blocks.size() <= child_ref::kMaxLeafEntries);
+  }
+
+  static void check(bool fits) {
+    if (!fits)
+      throw Error(ErrorKind::limit, "", "the scene has too many triangles; leave some out");
+  }
+
+  // Writes a node to nodes[slot] and its subtree to the positions from the cursor on, which is
   // advanced.
-  void write_node(const BinaryNode& node, std::size_t slot, Places& next) {
+  void write_node(const BinaryNode& node, std::size_t slot, Cursor& cursor) {
     const WideChildren children(node);
     std::array<std::size_t, kWidth> slots{};
     WideNode& wide = tree_.nodes[slot];
@@ -139,9 +176,9 @@ class Writer {
       const BinaryNode& child = children[i];
       set_box(wide, i, child.box);
       if (child.plan.is_leaf()) {
-        wide.child[i] = write_leaf(child, next);
+        wide.child[i] = write_leaf(child, cursor);
       } else {
-        slots[i] = next.nodes++;
+        slots[i] = cursor.next.nodes++;
         wide.child[i] = static_cast<ChildRef>(slots[i]);
       }
     }
@@ -150,50 +187,78 @@ class Writer {
       if (child.plan.is_leaf()) continue;
       if (is_job(node, child)) {
         Job& job = jobs_[job_++];
-        job.begin = next;
+        job.begin = cursor.next;
         job.slot = slots[i];
-        next += job.size;
+        cursor.next.nodes += job.size.nodes;
+        cursor.next.others += job.size.others;
       } else {
-        write_node(child, slots[i], next);
+        write_node(child, slots[i], cursor);
       }
     }
   }
 
-  ChildRef write_leaf(const BinaryNode& leaf, Places& next) {
-    const std::span<const PrimitiveId> ids(ids_ + leaf.begin, leaf.count);
+  ChildRef write_leaf(const BinaryNode& leaf, Cursor& cursor) {
+    const std::span<const PrimitiveId> ids = ids_of(leaf);
     if (is_instance(leaf)) return child_ref::kFirstInstance + ids[0];
-    if (!is_of_triangles(leaf)) {
-      std::copy(ids.begin(), ids.end(),
-                tree_.others.begin() + static_cast<std::ptrdiff_t>(next.others));
-      return child_ref::kOthers | reference(next.others, leaf.count);
+    if (!has_triangles(leaf, triangle_weight_)) {
+      std::ranges::copy(ids, tree_.others.data() + cursor.next.others);
+      return child_ref::kOthers | reference(cursor.next.others, leaf.count);
     }
-    const std::uint32_t count = blocks(leaf.weight);
-    for (std::size_t i = 0; i < count; ++i) {
-      TriangleBlock& block = tree_.blocks[next.blocks + i];
-      block = empty_block();
-      const auto rest = ids.subspan(i * kWidth);
-      for (std::size_t k = 0; k < std::min<std::size_t>(kWidth, rest.size()); ++k)
-        put(block, k, rest[k]);
-    }
-    return child_ref::kTriangles | reference(next.blocks, count);
+    if (cursor.counts != nullptr)
+      return child_ref::kTriangles | reference(cursor.next.blocks, *cursor.counts++);
+    cursor.next.blocks = tree_.blocks.size();
+    fill(leaf, tree_.blocks);
+    check(tree_.blocks.size() <= child_ref::kMaxLeafEntries);
+    return child_ref::kTriangles |
+           reference(cursor.next.blocks, tree_.blocks.size() - cursor.next.blocks);
   }
 
-  static ChildRef reference(std::size_t& next, std::uint32_t count) {
+  static ChildRef reference(std::size_t& next, std::size_t count) {
     const auto first = static_cast<ChildRef>(next);
     next += count;
-    return first << 3U | (count - 1);
+    return first << 3U | static_cast<ChildRef>(count - 1);
   }
 
-  void put(TriangleBlock& block, std::size_t slot, PrimitiveId id) {
-    primitives_.visit(id, [&](const auto& shape) {
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Triangle>)
-        build::put(block, slot, id, shape);
+  // Fills the blocks of all leaves below a node, in the order in which write_node visits them.
+  void fill(const BinaryNode& node, Filled& filled) const {
+    filled.blocks.clear();
+    filled.counts.clear();
+    for_each_leaf(node, [&](const BinaryNode& leaf) {
+      if (!has_triangles(leaf, triangle_weight_)) return;
+      const std::size_t before = filled.blocks.size();
+      fill(leaf, filled.blocks);
+      filled.counts.push_back(static_cast<std::uint8_t>(filled.blocks.size() - before));
     });
+  }
+
+  template <class F>
+  static void for_each_leaf(const BinaryNode& node, const F& f) {
+    const WideChildren children(node);
+    for (const BinaryNode* child : children)
+      if (child->plan.is_leaf()) f(*child);
+    for (const BinaryNode* child : children)
+      if (!child->plan.is_leaf()) for_each_leaf(*child, f);
+  }
+
+  // Appends blocks with the triangles of a leaf.
+  void fill(const BinaryNode& leaf, PageVector<TriangleBlock>& blocks) const {
+    std::optional<BlockFiller> filler;
+    for (const PrimitiveId id : ids_of(leaf)) {
+      const Triangle triangle = *primitives_.triangle(id);
+      if (filler && filler->add(id, triangle)) continue;
+      filler.emplace(blocks.emplace_back());
+      filler->add(id, triangle);
+    }
+  }
+
+  [[nodiscard]] std::span<const PrimitiveId> ids_of(const BinaryNode& leaf) const {
+    return ids_.subspan(leaf.begin, leaf.count);
   }
 
   const Primitives& primitives_;
   Tree& tree_;
-  const PrimitiveId* ids_ = nullptr;
+  std::span<const PrimitiveId> ids_;
+  std::uint32_t triangle_weight_ = kTriangleWeight;
   std::vector<Job> jobs_;
   std::size_t job_ = 0;  // the next job that write_node will visit
 };

@@ -6,13 +6,13 @@
 namespace microtrace::build {
 
 /// Writes the nodes, blocks and list of other primitives of the planned tree; does not change
-/// `unbounded`. Releases nodes of `planned` that are no longer needed. Throws Error (limit) if the
-/// tree is too large for its references.
+/// `unbounded`. Releases nodes of `planned` that are no longer needed. Throws Error (limit)
+/// if the tree is too large for its references.
 ///
 /// In memory, the inner children of a node are consecutive, followed by the subtree of the first,
-/// the subtree of the second, and so on. Leaves are in the same order. A node's children are
-/// therefore on one page, usually the page of the node itself, and a small subtree is a short
-/// range.
+/// the subtree of the second, and so on. Leaves are in the same order, but those right below nodes
+/// with very many primitives come first. A node's children are therefore on one page, usually the
+/// page of the node itself, and a small subtree is a short range.
 void write_tree(BinaryTree& planned, const Primitives& primitives, WorkerPool& pool, Tree& tree);
 
 }  // namespace microtrace::build

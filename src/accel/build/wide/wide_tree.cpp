@@ -1,6 +1,8 @@
 #include "accel/build/wide/wide_tree.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -52,29 +54,51 @@ Bounds bounds_of(const Box& box) {
   return {.lo = {box.lo[0], box.lo[1], box.lo[2]}, .hi = {box.hi[0], box.hi[1], box.hi[2]}};
 }
 
-TriangleBlock empty_block() {
-  TriangleBlock block{};
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (int i = 0; i < kWidth; ++i) {
-    block.a[0][i] = block.a[1][i] = block.a[2][i] = nan;
-    block.id[i] = std::numeric_limits<PrimitiveId>::max();
-  }
-  return block;
+BlockFiller::BlockFiller(TriangleBlock& block) : block_(block) {
+  block = {};
+  for (auto& axis : block.vertices)
+    axis[TriangleBlock::kVertices - 1] = std::numeric_limits<float>::quiet_NaN();
+  for (auto& corner : block.corners) std::ranges::fill(corner, TriangleBlock::kVertices - 1);
+  std::ranges::fill(block.id, std::numeric_limits<PrimitiveId>::max());
 }
 
-void put(TriangleBlock& block, std::size_t slot, PrimitiveId id, const Triangle& unturned) {
+bool BlockFiller::add(PrimitiveId id, const Triangle& unturned) {
+  if (slots_ == kWidth) return false;
   const Triangle t = turned(unturned);
-  const Vec3 e1 = t.b - t.a, e2 = t.c - t.a;
-  for (int axis = 0; axis < 3; ++axis) {
-    block.a[axis][slot] = t.a[axis];
-    block.b[axis][slot] = t.b[axis];
-    block.c[axis][slot] = t.c[axis];
+  const std::array<Vec3, 3> vertices{t.a, t.b, t.c};
+  std::array<unsigned, 3> corners{};
+  unsigned count = vertices_;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const unsigned known = find(vertices[i]);
+    corners[i] = known < vertices_ ? known : count++;
   }
-  block.id[slot] = id;
+  // If slots remain unused, the last vertex is theirs.
+  if (count > (slots_ + 1 == kWidth ? TriangleBlock::kVertices : TriangleBlock::kVertices - 1))
+    return false;
+  vertices_ = count;
+  for (std::size_t i = 0; i < 3; ++i) {
+    block_.corners[i][slots_] = static_cast<std::uint8_t>(corners[i]);
+    for (int axis = 0; axis < 3; ++axis) block_.vertices[axis][corners[i]] = vertices[i][axis];
+  }
+  block_.id[slots_++] = id;
+  const Vec3 e1 = t.b - t.a, e2 = t.c - t.a;
   const float largest1 = largest_component(e1), largest2 = largest_component(e2);
-  block.largest_edge = std::max({block.largest_edge, largest1, largest2});
-  block.edge_product =
-      std::max(block.edge_product, largest1 * largest2 * (1 + 0x1p-22F) + 0x1p-126F);
+  block_.largest_edge = std::max({block_.largest_edge, largest1, largest2});
+  block_.edge_product =
+      std::max(block_.edge_product, largest1 * largest2 * (1 + 0x1p-22F) + 0x1p-126F);
+  return true;
+}
+
+unsigned BlockFiller::find(const Vec3& vertex) const {
+  const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(vertex);
+  const auto is_at = [&](unsigned i) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (std::bit_cast<std::uint32_t>(block_.vertices[axis][i]) != bits[axis]) return false;
+    return true;
+  };
+  unsigned i = 0;
+  while (i < vertices_ && !is_at(i)) ++i;
+  return i;
 }
 
 bool have_same_vertices(const TriangleBlock& a, const TriangleBlock& b) {

@@ -44,20 +44,32 @@ struct LeafEntries {
   return {.begin = begin, .end = begin + (leaf & 7U) + 1};
 }
 
-/// Returns a block without triangles.
-[[nodiscard]] TriangleBlock empty_block();
+/// Fills a block, slot by slot.
+class BlockFiller {
+ public:
+  /// Makes the block one without triangles.
+  explicit BlockFiller(TriangleBlock& block);
 
-/// Stores a triangle in a slot of a block. Slots are filled in order.
-void put(TriangleBlock& block, std::size_t slot, PrimitiveId id, const Triangle& triangle);
-[[nodiscard]] inline bool is_used(const TriangleBlock& block, std::size_t slot) {
-  return block.a[0][slot] == block.a[0][slot];  // unused slots have NaN
-}
+  /// Adds a triangle. Returns false, without effect, if the block has no room for it. A block has
+  /// room for at least five triangles, and for eight if they have at most fifteen vertices.
+  bool add(PrimitiveId id, const Triangle& triangle);
+
+ private:
+  /// Returns the index of a vertex with the same bits, or vertices_.
+  [[nodiscard]] unsigned find(const Vec3& vertex) const;
+
+  TriangleBlock& block_;
+  std::size_t slots_ = 0;
+  unsigned vertices_ = 0;
+};
 
 /// Returns the triangle in a slot. The order of its vertices may differ from the scene's.
 [[nodiscard]] inline Triangle triangle_in(const TriangleBlock& block, std::size_t slot) {
-  return {.a = {block.a[0][slot], block.a[1][slot], block.a[2][slot]},
-          .b = {block.b[0][slot], block.b[1][slot], block.b[2][slot]},
-          .c = {block.c[0][slot], block.c[1][slot], block.c[2][slot]}};
+  const auto vertex = [&](int i) {
+    return Vec3(coordinate(block, i, slot, 0), coordinate(block, i, slot, 1),
+                coordinate(block, i, slot, 2));
+  };
+  return {.a = vertex(0), .b = vertex(1), .c = vertex(2)};
 }
 
 /// Returns the largest magnitude of a component.

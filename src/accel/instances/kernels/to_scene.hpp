@@ -7,6 +7,7 @@
 /// the transformed box, without a margin.
 
 #include "accel/instances/kernels/kernel.hpp"
+#include "accel/kernels/block_corners.hpp"
 #include "simd/vectors.hpp"
 
 namespace microtrace {
@@ -23,22 +24,23 @@ inline Double<N> placed(const Instance& instance, int axis, const Double<N>& x, 
 template <int N>
 void scene_block(const Instance& instance, const TriangleBlock& from, TriangleBlock& to) {
   using F = Float<N>;
-  const bool is_mirrored = instance.is_mirrored != 0;
-  const float(*const corners[3])[kWidth] = {from.a, is_mirrored ? from.c : from.b,
-                                            is_mirrored ? from.b : from.c};
-  float(*const results[3])[kWidth] = {to.a, to.b, to.c};
+  for (unsigned i = 0; i < TriangleBlock::kVertices; i += N) {
+    const Double<N> x = widened<N>(from.vertices[0] + i), y = widened<N>(from.vertices[1] + i),
+                    z = widened<N>(from.vertices[2] + i);
+    for (int axis = 0; axis < 3; ++axis)
+      narrowed<N>(placed<N>(instance, axis, x, y, z), to.vertices[axis] + i);
+  }
+  const int second = instance.is_mirrored != 0 ? 2 : 1;
+  __builtin_memcpy(to.corners[0], from.corners[0], kWidth);
+  __builtin_memcpy(to.corners[1], from.corners[second], kWidth);
+  __builtin_memcpy(to.corners[2], from.corners[3 - second], kWidth);
   F largest{}, product{};
   for (int i = 0; i < kWidth; i += N) {
-    for (int k = 0; k < 3; ++k) {
-      const Double<N> x = widened<N>(corners[k][0] + i), y = widened<N>(corners[k][1] + i),
-                      z = widened<N>(corners[k][2] + i);
-      for (int axis = 0; axis < 3; ++axis)
-        narrowed<N>(placed<N>(instance, axis, x, y, z), results[k][axis] + i);
-    }
+    const BlockCorners<N> corners(to, i);
     F edges[2]{};
     for (int k = 0; k < 2; ++k) {
       for (int axis = 0; axis < 3; ++axis) {
-        const F edge = load<N>(results[k + 1][axis] + i) - load<N>(to.a[axis] + i);
+        const F edge = corners.of[k + 1][axis] - corners.of[0][axis];
         edges[k] = greater(magnitude(edge), edges[k]);  // ignores the NaN of unused slots
       }
     }

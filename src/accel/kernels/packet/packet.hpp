@@ -171,8 +171,7 @@ class PacketWalk {
                        ? reinterpret_cast<std::uintptr_t>(scope_.nodes) + child * sizeof(WideNode)
                        : reinterpret_cast<std::uintptr_t>(scope_.blocks) +
                              first_entry(child) * sizeof(TriangleBlock);
-    const std::uintptr_t lines = is_node ? 4 : 5;
-    for (std::uintptr_t i = 0; i < lines; ++i) {
+    for (std::uintptr_t i = 0; i < 4; ++i) {
       // NOLINTNEXTLINE(performance-no-int-to-ptr): only prefetched
       __builtin_prefetch(reinterpret_cast<const void*>(p + 64 * i));
     }

@@ -141,10 +141,11 @@ class PacketTriangles {
 
   // Transforming an instance's triangle again to round t would take longer.
   void keep_vertices(const Candidate& triangle, int ray) {
+    const auto slot = static_cast<std::size_t>(triangle.lane);
     for (int axis = 0; axis < 3; ++axis) {
-      packet_.placed.a[axis][ray] = triangle.block.a[axis][triangle.lane];
-      packet_.placed.b[axis][ray] = triangle.block.b[axis][triangle.lane];
-      packet_.placed.c[axis][ray] = triangle.block.c[axis][triangle.lane];
+      packet_.placed.a[axis][ray] = coordinate(triangle.block, 0, slot, axis);
+      packet_.placed.b[axis][ray] = coordinate(triangle.block, 1, slot, axis);
+      packet_.placed.c[axis][ray] = coordinate(triangle.block, 2, slot, axis);
     }
   }
 

@@ -2,6 +2,7 @@
 /// A block's triangles relative to the common origin of a packet's rays, and which groups of rays
 /// may hit each of them.
 
+#include "accel/kernels/block_corners.hpp"
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/packet/packet_boxes.hpp"
@@ -60,12 +61,11 @@ struct PacketView {
   }
 
   void look_at(const TriangleBlock& block, const KernelPacket& packet, Groups groups, int i) {
-    const Vector corner{load<N>(block.a[0] + i), load<N>(block.a[1] + i), load<N>(block.a[2] + i)};
-    const Vector a{corner.x - packet.o[0], corner.y - packet.o[1], corner.z - packet.o[2]};
-    const Vector e1{load<N>(block.b[0] + i) - corner.x, load<N>(block.b[1] + i) - corner.y,
-                    load<N>(block.b[2] + i) - corner.z};
-    const Vector e2{load<N>(block.c[0] + i) - corner.x, load<N>(block.c[1] + i) - corner.y,
-                    load<N>(block.c[2] + i) - corner.z};
+    const BlockCorners<N> corners(block, i);
+    const auto& [first, second, third] = corners.of;
+    const Vector a{first[0] - packet.o[0], first[1] - packet.o[1], first[2] - packet.o[2]};
+    const Vector e1{second[0] - first[0], second[1] - first[1], second[2] - first[2]};
+    const Vector e2{third[0] - first[0], third[1] - first[1], third[2] - first[2]};
     Vector normal = cross(e1, e2), p = cross(e2, a), q = cross(a, e1);
     F h = normal.x * a.x + normal.y * a.y + normal.z * a.z;
     // Each triangle has its own error bounds. With a common bound, one huge triangle in the block
