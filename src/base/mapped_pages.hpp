@@ -5,8 +5,14 @@
 
 namespace microtrace {
 
+inline constexpr std::size_t kHugePage = std::size_t{1} << 21U;
+
 /// Throws std::bad_alloc. The memory is aligned to pages.
 [[nodiscard]] void* map_pages(std::size_t bytes);
 void unmap_pages(void* p, std::size_t bytes) noexcept;
+
+/// Returns memory of allocate_pages() to the system, whose contents are lost. It may be used again,
+/// and must be released as before. p is the beginning of a page.
+void discard_pages(void* p, std::size_t bytes) noexcept;
 
 }  // namespace microtrace

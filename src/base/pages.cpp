@@ -9,8 +9,6 @@
 namespace microtrace {
 namespace {
 
-constexpr std::size_t kHugePage = std::size_t{1} << 21U;
-
 std::align_val_t alignment_of(std::size_t bytes) {
   return std::align_val_t{bytes >= kHugePage ? kHugePage : std::size_t{64}};
 }
@@ -50,6 +48,12 @@ void unmap_pages(void* p, std::size_t bytes) noexcept {
   ::munmap(p, bytes);
 #else
   release_pages(p, bytes);
+#endif
+}
+
+void discard_pages([[maybe_unused]] void* p, [[maybe_unused]] std::size_t bytes) noexcept {
+#ifdef __linux__
+  if (bytes >= kHugePage) ::madvise(p, bytes, MADV_DONTNEED);
 #endif
 }
 

@@ -1,9 +1,13 @@
 #include "base/free_memory.hpp"
 #include "base/memory_account.hpp"
+#include "base/release.hpp"
 
 #include <microtrace/error.hpp>
+#include <microtrace/page_allocator.hpp>
 #include <microtrace/render.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -152,6 +156,26 @@ TEST(RenderMemory, IsRefusedBeforeItIsTaken) {
   EXPECT_THROW((void)render(scene, PerspectiveCamera{}, {.width = 65535, .height = 65535}, options),
                Error);
 }
+
+#ifdef __linux__
+TEST(Release, DiscardsPagesWhoseElementsAreAllUsed) {
+  constexpr std::size_t kPage = kHugePage / sizeof(std::uint32_t);
+  PageVector<std::uint32_t> numbers(3 * kPage, 1);
+  Release<std::uint32_t> release(numbers);
+  const auto discarded = [&] {
+    std::string pages;
+    for (std::size_t page = 0; page < 3; ++page) pages += numbers[page * kPage] == 0 ? "x" : "-";
+    return pages;
+  };
+  release(kPage + 5, 2 * kPage - 10);  // leaves 5 elements in each of the last two pages
+  EXPECT_EQ(discarded(), "---");
+  release(kPage, 5);
+  EXPECT_EQ(discarded(), "-x-");
+  release(0, kPage);
+  release(3 * kPage - 5, 5);
+  EXPECT_EQ(discarded(), "xxx");
+}
+#endif
 
 }  // namespace
 }  // namespace microtrace

@@ -1,71 +1,31 @@
 #include "accel/build/binary/binary_tree.hpp"
 
 #include "accel/build/binary/binning.hpp"
+#include "accel/build/binary/partition.hpp"
 #include "accel/build/wide/collapse.hpp"
 #include "base/mapped_pages.hpp"
+#include "base/release.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace microtrace::build {
 namespace {
 
-// kChunkSize is the number of references per task while all threads split one set together. Sets of
-// at most kSubtreeSize references are built by one thread each. These are constants so that the
-// tree does not depend on the number of threads.
-constexpr std::size_t kChunkSize = std::size_t{1} << 13U;
+// Sets of at most this number of references are built by one thread each. It is a constant so that
+// the tree does not depend on the number of threads.
 constexpr std::size_t kSubtreeSize = std::size_t{1} << 14U;
 
 // Near this depth, sets are halved without evaluating costs, so at most log2(size) more levels
 // follow.
 constexpr unsigned kDepthLimit = 58;
 
-// The references of a node that is not yet split. They are stored in one of two arrays, in the
-// range that they keep in the final order. Splitting moves them to the other array.
+// A node that is not yet split. Splitting moves its references within their range.
 struct Set {
   BinaryNode* node;
-  unsigned depth, array;
+  unsigned depth;
   Box centroids;
 };
-
-// The two arrays, or the parts of them from the position `first` on.
-struct Arrays {
-  std::array<Reference*, 2> data;
-  std::uint32_t first = 0;
-
-  [[nodiscard]] std::span<Reference> of(const Set& set) const {
-    return {data[set.array] + (set.node->begin - first), set.node->count};
-  }
-};
-
-struct CentroidBoxes {
-  Box left, right;
-
-  void include(const CentroidBoxes& b) {
-    left.include(b.left);
-    right.include(b.right);
-  }
-};
-
-// Copies each reference to the left or the right output without a branch, which would be
-// unpredictable.
-CentroidBoxes partition(std::span<const Reference> from, const BinMapping& mapping,
-                        const Split& split, Reference* left, Reference* right) {
-  const float infinity = std::numeric_limits<float>::infinity();
-  CentroidBoxes boxes;
-  std::array<Reference*, 2> to{left, right};
-  for (const Reference& r : from) {
-    prefetch_after(r);
-    const bool goes_right = mapping(r)[split.axis] > split.last_bin;
-    *to[goes_right]++ = r;
-    const Float4 c = centroid(r.box);
-    const Int4 is_right = splat(static_cast<float>(goes_right)) > splat(0.5F);
-    boxes.left.lo = min(boxes.left.lo, is_right ? splat(infinity) : c);
-    boxes.left.hi = max(boxes.left.hi, is_right ? splat(-infinity) : c);
-    boxes.right.lo = min(boxes.right.lo, is_right ? c : splat(infinity));
-    boxes.right.hi = max(boxes.right.hi, is_right ? c : splat(-infinity));
-  }
-  return boxes;
-}
 
 int bins_for(std::size_t count, int most) {
   return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(most), 8 + count / 4));
@@ -84,15 +44,16 @@ class Builder {
     const std::vector<Set> small = split_until_small();
     tree_.subtrees.resize(small.size());
     std::vector<CollapseCosts> costs(small.size());
+    Release<Reference> release(references_);
     pool_.run(small.size(), [&](std::size_t i) {
       const BinaryNode& node = *small[i].node;
       tree_.subtrees[i].begin = node.begin;
-      PageVector<Reference> other(node.count);
-      Subtree subtree{
-          .arrays = {.data = {references_.data() + node.begin, other.data()}, .first = node.begin},
-          .arena = tree_.subtrees[i].nodes,
-          .bins = {}};
+      PageVector<std::byte> scratch(kSubtreeSize * sizeof(Reference));
+      Subtree subtree{.scratch = reinterpret_cast<Reference*>(scratch.data()),
+                      .arena = tree_.subtrees[i].nodes,
+                      .bins = {}};
       costs[i] = build_alone(small[i], subtree);
+      release(node.begin, node.count);
     });
     auto next = costs.cbegin();
     plan_top(tree_.root, next);
@@ -104,17 +65,20 @@ class Builder {
 
   /// What a thread needs to build a subtree alone.
   struct Subtree {
-    Arrays arrays;
+    Reference* scratch;
     NodeArena& arena;
     Bins bins;
   };
 
-  /// Splits the whole until each set is small enough for one thread. Their references are then all
-  /// in the first array, so that the second needs no memory any longer.
+  [[nodiscard]] std::span<Reference> of(const Set& set) {
+    return std::span(references_).subspan(set.node->begin, set.node->count);
+  }
+
+  /// Splits the whole until each set is small enough for one thread.
   std::vector<Set> split_until_small() {
-    PageVector<Reference> other(references_.size() > kSubtreeSize ? references_.size() : 0);
-    const Arrays arrays{.data = {references_.data(), other.data()}};
-    std::vector<Set> open{whole(arrays)}, small;
+    std::vector<Set> open{whole()}, small;
+    // Reused, because clearing new pages takes time.
+    PageVector<std::uint16_t> scratch(references_.size() > kSubtreeSize ? references_.size() : 0);
     model_.area = AreaMeasure(tree_.root.box);
     while (!open.empty()) {
       const Set set = open.back();
@@ -123,16 +87,10 @@ class Builder {
         small.push_back(set);
         continue;
       }
-      const auto [left, right] = split_together(set, arrays);
+      const auto [left, right] = split_together(set, scratch);
       open.push_back(right);
       open.push_back(left);
     }
-    pool_.run(small.size(), [&](std::size_t i) {
-      if (small[i].array == 0) return;
-      const std::span<Reference> moved = arrays.of(small[i]);
-      small[i].array = 0;
-      std::ranges::copy(moved, arrays.of(small[i]).begin());
-    });
     return small;
   }
 
@@ -147,10 +105,10 @@ class Builder {
     }
   }
 
-  Set whole(const Arrays& arrays) {
+  Set whole() {
     tree_.root.count = static_cast<std::uint32_t>(references_.size());
-    Set set{.node = &tree_.root, .depth = 0, .array = 0, .centroids = {}};
-    summarize(arrays.of(set), set);
+    Set set{.node = &tree_.root, .depth = 0, .centroids = {}};
+    summarize(of(set), set);
     return set;
   }
 
@@ -165,23 +123,18 @@ class Builder {
     pair[1].begin = set.node->begin + pair[0].count;
     pair[1].count = split.right_load.count;
     pair[1].weight = split.right_load.weight;
-    Set half{.node = pair, .depth = set.depth + 1, .array = 1 - set.array, .centroids = {}};
-    Set other = half;
-    other.node = pair + 1;
-    return {half, other};
+    return {Set{.node = pair, .depth = set.depth + 1, .centroids = {}},
+            Set{.node = pair + 1, .depth = set.depth + 1, .centroids = {}}};
   }
 
   // Splits a set into two halves of equal count, for sets whose centroids no plane separates or
   // whose depth is near the limit.
-  static Halves halve(const Set& set, const Arrays& arrays, NodeArena& arena) {
+  Halves halve(const Set& set, NodeArena& arena) {
     Split split;
     split.left_load.count = set.node->count / 2;
     split.right_load.count = set.node->count - split.left_load.count;
     Halves sets = halves(set, arena, split);
-    for (Set& half : sets) {
-      half.array = set.array;
-      summarize(arrays.of(half), half);
-    }
+    for (Set& half : sets) summarize(of(half), half);
     return sets;
   }
 
@@ -189,55 +142,37 @@ class Builder {
     return set.depth + static_cast<unsigned>(std::bit_width(set.node->count)) >= kDepthLimit;
   }
 
-  Halves split_alone(const Set& set, Subtree& subtree) const {
-    auto& [arrays, arena, bins] = subtree;
+  Halves split_alone(const Set& set, Subtree& subtree) {
+    auto& [scratch, arena, bins] = subtree;
     const BinMapping mapping(set.centroids, bins_for(set.node->count, max_bins_));
-    if (is_deep(set) || mapping.is_degenerate()) return halve(set, arrays, arena);
+    if (is_deep(set) || mapping.is_degenerate()) return halve(set, arena);
     bins.clear(mapping.bins());
-    bins.add(arrays.of(set), mapping);
+    bins.add(of(set), mapping);
     const Split split = bins.best_split(mapping.bins(), AreaMeasure(set.node->box));
-    if (!split.exists()) return halve(set, arrays, arena);
-    Halves sets = halves(set, arena, split);
-    const CentroidBoxes centroids = partition(arrays.of(set), mapping, split,
-                                              arrays.of(sets[0]).data(), arrays.of(sets[1]).data());
-    sets[0].centroids = centroids.left;
-    sets[1].centroids = centroids.right;
-    return sets;
+    if (!split.exists()) return halve(set, arena);
+    return with_centroids(halves(set, arena, split), partition(of(set), mapping, split, scratch));
   }
 
-  Halves split_together(const Set& set, const Arrays& arrays) {
+  Halves split_together(const Set& set, std::span<std::uint16_t> scratch) {
     const BinMapping mapping(set.centroids, max_bins_);
-    if (is_deep(set) || mapping.is_degenerate()) return halve(set, arrays, tree_.top);
-    const std::span<const Reference> all = arrays.of(set);
-    const std::size_t chunks = (all.size() + kChunkSize - 1) / kChunkSize;
-    const auto chunk = [&](std::size_t i) {
-      return all.subspan(i * kChunkSize, std::min(kChunkSize, all.size() - i * kChunkSize));
-    };
-    std::vector<Bins> bins(chunks);
-    pool_.run(chunks, [&](std::size_t i) {
+    if (is_deep(set) || mapping.is_degenerate()) return halve(set, tree_.top);
+    const Chunks<Reference> chunks(of(set));
+    std::vector<Bins> bins(chunks.size());
+    pool_.run(bins.size(), [&](std::size_t i) {
       bins[i].clear(mapping.bins());
-      bins[i].add(chunk(i), mapping);
+      bins[i].add(chunks[i], mapping);
     });
-    Bins sum = bins[0];
-    for (std::size_t i = 1; i < chunks; ++i) sum.add(bins[i], mapping.bins());
-    const Split split = sum.best_split(mapping.bins(), AreaMeasure(set.node->box));
-    if (!split.exists()) return halve(set, arrays, tree_.top);
+    for (std::size_t i = 1; i < bins.size(); ++i) bins[0].add(bins[i], mapping.bins());
+    const Split split = bins[0].best_split(mapping.bins(), AreaMeasure(set.node->box));
+    if (!split.exists()) return halve(set, tree_.top);
+    return with_centroids(
+        halves(set, tree_.top, split),
+        partition_together(of(set), mapping, split, scratch.first(set.node->count), pool_));
+  }
 
-    Halves sets = halves(set, tree_.top, split);
-    std::vector<std::size_t> left_before(chunks);
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < chunks; ++i) {
-      left_before[i] = left;
-      left += bins[i].load_up_to(split.axis, split.last_bin).count;
-    }
-    std::vector<CentroidBoxes> centroids(chunks);
-    pool_.run(chunks, [&](std::size_t i) {
-      centroids[i] = partition(chunk(i), mapping, split, arrays.of(sets[0]).data() + left_before[i],
-                               arrays.of(sets[1]).data() + (i * kChunkSize - left_before[i]));
-    });
-    for (std::size_t i = 1; i < chunks; ++i) centroids[0].include(centroids[i]);
-    sets[0].centroids = centroids[0].left;
-    sets[1].centroids = centroids[0].right;
+  static Halves with_centroids(Halves sets, const CentroidBoxes& centroids) {
+    sets[0].centroids = centroids.left;
+    sets[1].centroids = centroids.right;
     return sets;
   }
 
@@ -247,7 +182,7 @@ class Builder {
     BinaryNode& node = *set.node;
     const bool is_block = has_triangles(node, tree_.triangle_weight) && blocks(node.weight) == 1;
     if (is_block || node.count <= 1) {
-      const auto leaf = subtree.arrays.of(set);
+      const auto leaf = of(set);
       for (std::size_t i = 0; i < leaf.size(); ++i) tree_.ids[node.begin + i] = leaf[i].id();
       return costs_of_leaf(node, model_);
     }

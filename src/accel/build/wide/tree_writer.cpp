@@ -3,6 +3,7 @@
 #include "accel/build/binary/binning.hpp"
 #include "accel/build/wide/collapse.hpp"
 #include "accel/build/wide/wide_tree.hpp"
+#include "base/release.hpp"
 
 #include <microtrace/error.hpp>
 
@@ -80,6 +81,7 @@ class Writer {
   void write_jobs(BinaryTree& planned, WorkerPool& pool) {
     std::vector<std::atomic<std::uint32_t>> open(planned.subtrees.size());  // jobs of each subtree
     for (const Job& job : jobs_) ++open[subtree_of(job, planned)];
+    Release<PrimitiveId> release(planned.ids);
     std::vector<Filled> filled(std::min(jobs_.size(), 2 * pool.size()));
     for (std::size_t first = 0; first < jobs_.size(); first += filled.size()) {
       const std::span<Job> jobs =
@@ -94,7 +96,8 @@ class Writer {
         std::ranges::copy(filled[i].blocks, tree_.blocks.data() + job.begin.blocks);
         Cursor cursor{.next = job.begin, .counts = filled[i].counts.data()};
         write_node(*job.node, job.slot, cursor);
-        // The blocks take several times the memory of the nodes, which is released meanwhile.
+        // The blocks take the memory of the ids and the nodes, which is released meanwhile.
+        release(job.node->begin, job.node->count);
         const std::size_t subtree = subtree_of(job, planned);
         if (--open[subtree] == 0) planned.subtrees[subtree].nodes = {};
       });

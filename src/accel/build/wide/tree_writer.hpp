@@ -6,7 +6,7 @@
 namespace microtrace::build {
 
 /// Writes the nodes, blocks and list of other primitives of the planned tree; does not change
-/// `unbounded`. Releases nodes of `planned` that are no longer needed. Throws Error (limit)
+/// `unbounded`. Releases nodes and ids of `planned` that are no longer needed. Throws Error (limit)
 /// if the tree is too large for its references.
 ///
 /// In memory, the inner children of a node are consecutive, followed by the subtree of the first,
