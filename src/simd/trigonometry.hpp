@@ -3,7 +3,7 @@
 /// bits depend on nothing but IEEE 754. Errors are below two units in the last place.
 
 #include "simd/exponential.hpp"
-#include "simd/vectors.hpp"
+#include "simd/masks.hpp"
 
 namespace microtrace {
 inline namespace MICROTRACE_KERNELS {

@@ -2,7 +2,7 @@
 /// Two- and three-component vectors of lanes. They perform the same operations as GLM in the same
 /// order, so results have the same bits. For one lane, GLM's own types are used.
 
-#include "simd/vectors.hpp"
+#include "simd/masks.hpp"
 
 #include <microtrace/math.hpp>
 

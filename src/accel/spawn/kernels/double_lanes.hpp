@@ -5,7 +5,7 @@
 
 #include "accel/filters/roundings.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
-#include "simd/vectors.hpp"
+#include "simd/masks.hpp"
 
 namespace microtrace {
 namespace {
