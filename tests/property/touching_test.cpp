@@ -220,5 +220,37 @@ TEST_P(Touching, SeveralQueriesFindTheTrianglesOfSingleOnes) {
   EXPECT_GT(too_many, 100);
 }
 
+// Thin triangles from a corner to many places, so that their bounding boxes contain the boxes of
+// three queries. In each place, the third query overlaps only half of them, so the first two leave
+// it there. These subtrees are more than a stack has room for.
+TEST_P(Touching, QueriesPartInManySubtrees) {
+  constexpr int kPlaces = 34, kTriangles = 2048;
+  Random random(54);
+  Mesh mesh;
+  for (int i = 0; i < kPlaces; ++i) {
+    for (int j = 0; j < kPlaces; ++j) {
+      for (int k = 0; k < kTriangles; ++k) {
+        const Vec3 jitter = 5e-4F / kPlaces * random.in_cube(1);
+        const Vec3 tip = Vec3(static_cast<float>(i), static_cast<float>(j), 0.0F) / float{kPlaces} +
+                         Vec3(0.05F, 0.05F, k % 2 != 0 ? 0.01F : 0.01F + 0.3F / kPlaces) + jitter;
+        append_triangle(mesh, Vec3(-1), tip, tip - Vec3(1e-4F, 0, 1e-6F));
+      }
+    }
+  }
+  const Places places(mesh, *GetParam());
+  BoxQueries queries{};
+  queries.size = 3;
+  const float between = 0.01F + 0.15F / kPlaces;
+  std::vector<std::optional<std::set<PrimitiveId>>> expected;
+  for (int i = 0; i < queries.size; ++i) {
+    const Vec3 p(-0.9F, -0.05F, i < 2 ? -0.9F : between), lo = p - 1e-6F, hi = p + 1e-6F;
+    for (int k = 0; k < 3; ++k) queries.lo[k][i] = lo[k], queries.hi[k][i] = hi[k];
+    queries.omitted_id[i] = kNoPrimitive;
+    queries.plane_axis[i] = -1;
+    expected.push_back(places.near(lo, hi));
+  }
+  EXPECT_EQ(places.search(queries), expected);
+}
+
 }  // namespace
 }  // namespace microtrace

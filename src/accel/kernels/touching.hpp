@@ -36,13 +36,16 @@ inline void enter(const Instance& instance, const ClosedBox& query, ClosedBox& i
   }
 }
 
-/// The state of a query's traversal.
+/// The state of a query's traversal of some subtrees.
 struct BoxSearch {
+  /// Each subtree but the last takes one element of the stack.
+  static constexpr int kMostSubtrees = 32;
+
   int size;
   Scope scope;
   BoxQuery query;
   ClosedBox inner;  ///< the box in the space of the instance's mesh, in the scope of an instance
-  ChildRef stack[kStackSize + kWidth];
+  ChildRef stack[kMostSubtrees + kStackSize + kWidth];
 };
 
 /// Adds the triangles of a block that touch query i, which omits some. `bounds` are those of the
@@ -180,13 +183,12 @@ class TreeSearch {
   TreeSearch(const TreeView& tree, BoxQueries& queries) : tree_(tree), queries_(queries) {}
 
   void run() {
-    Lanes all_queries = 0;
     for (int i = 0; i < queries_.size; ++i)
-      all_queries |= Lanes{queries_.lo[0][i] <= queries_.hi[0][i]} << i;  // skips empty boxes
+      open_ |= Lanes{queries_.lo[0][i] <= queries_.hi[0][i]} << i;  // skips empty boxes
     if (tree_.instances == nullptr)
-      search_together(all_queries);
+      search_together();
     else
-      part(tree_.root, all_queries);
+      part(tree_.root, open_);
     int going[kBoxQueries], count = 0;
     for (Lanes lanes = parted_; lanes != 0; lanes &= lanes - 1) going[count++] = first_lane(lanes);
     while (count > 0) {
@@ -211,11 +213,12 @@ class TreeSearch {
   static constexpr int kTogether = 3;
 
   /// Searches the subtrees that several queries share.
-  void search_together(Lanes all_queries) {
+  void search_together() {
     Subtree stack[stack_size(false)];
-    stack[0] = {tree_.root, all_queries};
+    stack[0] = {tree_.root, open_};
     for (int size = 1; size > 0;) {
-      const auto [next, queries] = stack[--size];
+      const ChildRef next = stack[--size].root;
+      const Lanes queries = stack[size].queries & open_;
       const ChildRef kind = next & child_ref::kKind;
       if (kind != 0) {
         search_leaf(next, queries);
@@ -250,22 +253,28 @@ class TreeSearch {
     const std::uint32_t first = (leaf & ~child_ref::kKind) >> 3U, end = first + (leaf & 7U) + 1;
     for (std::uint32_t entry = first; entry < end; ++entry) {
       if ((leaf & child_ref::kKind) != child_ref::kTriangles) {
-        for (Lanes rest = queries; rest != 0; rest &= rest - 1)
-          adds_too_many(queries_, first_lane(rest), kOtherSlot + entry);
+        for (Lanes rest = queries; rest != 0; rest &= rest - 1) {
+          const int i = first_lane(rest);
+          close_if(adds_too_many(queries_, i, kOtherSlot + entry), i);
+        }
         continue;
       }
       const TriangleBlock& block = tree_.blocks[entry];
       const BlockBounds<N> bounds(block);
       for (Lanes rest = queries; rest != 0; rest &= rest - 1) {
         const int i = first_lane(rest);
-        adds_too_many<N>(queries_, i, query_of(queries_, i), block, bounds, entry * kWidth);
+        close_if(
+            adds_too_many<N>(queries_, i, query_of(queries_, i), block, bounds, entry * kWidth), i);
       }
     }
   }
 
+  /// Ends the search for a query that has too many results.
+  void close_if(bool has_too_many, int i) { open_ &= ~(Lanes{has_too_many} << i); }
+
   /// Leaves the subtree to a search for each query.
   void part(ChildRef root, Lanes queries) {
-    for (; queries != 0; queries &= queries - 1) {
+    for (queries &= open_; queries != 0; queries &= queries - 1) {
       const int i = first_lane(queries);
       BoxSearch& search = searches_[i];
       if ((parted_ >> i & 1U) == 0) {
@@ -274,12 +283,18 @@ class TreeSearch {
         search.scope = Scope(tree_);
         search.query = query_of(queries_, i);
       }
+      if (search.size == BoxSearch::kMostSubtrees) {
+        while (search.size > 0) step<N>(tree_, search, queries_, i);
+        close_if(queries_.count[i] < 0, i);
+        if ((open_ >> i & 1U) == 0) continue;
+      }
       search.stack[search.size++] = root;
     }
   }
 
   const TreeView& tree_;
   BoxQueries& queries_;
+  Lanes open_ = 0;    // queries without too many results
   Lanes parted_ = 0;  // queries with a search of their own
   BoxSearch searches_[kBoxQueries];
 };
