@@ -141,5 +141,14 @@ TEST(GltfBasisu, FallbacksReplaceTexturesThatCannotBeDecoded) {
   EXPECT_EQ(loaded.scene.textures.at(1).image, 0U);
 }
 
+TEST(GltfBasisu, ImagesThatCannotBeDecodedDoNotCountTowardTheLimitOfPixels) {
+  std::string ktx2 = ktx2_file("etc1s_runs_100x36");
+  for (const std::size_t side : {20U, 24U}) ktx2.replace(side, 4, {'\0', '\x40', '\0', '\0'});
+  const LoadedScene loaded = load(textured(ktx2));  // 2^14 x 2^14 pixels, the limit
+  EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("/images/0: can't be decoded")));
+  EXPECT_EQ(loaded.scene.textures.at(0).image, 1U);
+  EXPECT_THAT(loaded.scene.images.at(1), NotNull());
+}
+
 }  // namespace
 }  // namespace microtrace::tests

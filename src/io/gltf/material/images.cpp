@@ -181,11 +181,12 @@ class ImageLoader {
 
   std::shared_ptr<const Image> decode(const Element& at, const ImageHeader& header,
                                       std::string_view bytes, const std::string& remedy) {
-    pixels_ += std::uint64_t{header.width} * header.height;
-    if (pixels_ > kMaxTexturePixels) {
+    const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
+    if (pixels_ + pixels > kMaxTexturePixels) {
       asset_.fail(at, "brings the images to more than 2^28 pixels, the limit", ErrorKind::limit);
     }
     DecodedImage decoded = decode_image(bytes);
+    if (decoded.image) pixels_ += pixels;
     if (decoded.no_module) {
       add_to_read_digest("without decoder");  // the picture is another one
       asset_.warn(at, "can't be decoded, so " + remedy + ": " + decoded.complaint);
