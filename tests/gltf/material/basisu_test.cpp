@@ -17,6 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::NotNull;
+using testing::ThrowsMessage;
 
 std::string ktx2_file(const std::string& name) {
   const auto path = source_folder() / "tests/image/ktx2" / (name + ".ktx2");
@@ -136,9 +137,39 @@ TEST(GltfBasisu, FallbacksReplaceTexturesThatCannotBeDecoded) {
   AssetBuilder both = textured(ktx2.substr(0, 500));
   both.add("textures", {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}});
   const LoadedScene loaded = load(both);
-  EXPECT_THAT(texts(loaded.warnings), Contains(HasSubstr("its textures are white")));
+  EXPECT_THAT(texts(loaded.warnings),
+              ElementsAre(HasSubstr("its textures without another image are white")));
   EXPECT_EQ(loaded.scene.textures.at(0).image, 1U);
   EXPECT_EQ(loaded.scene.textures.at(1).image, 0U);
+}
+
+TEST(GltfBasisu, FallbacksThatAreNotNeededMayBeUnreadable) {
+  const std::string png = png_of(1, 1, {9, 8, 7, 6});
+  AssetBuilder asset = textured(ktx2_file("etc1s_runs_100x36"));
+  const auto fallback = [&asset](const std::string& bytes) -> Json {
+    return {{"mimeType", "image/png"}, {"bufferView", asset.add_view(bytes)}};
+  };
+  const Json unreadable[] = {{{"uri", "none.png"}},
+                             fallback(png.substr(0, 20)),
+                             fallback(png.substr(0, 8) + png)};  // has a damaged header
+  for (const Json& image : unreadable) {
+    asset.json["images"][1] = image;
+    const LoadedScene loaded = load(asset);
+    EXPECT_THAT(texts(loaded.warnings),
+                ElementsAre(AllOf(HasSubstr("/images/1"), HasSubstr("; it is not used"))));
+    EXPECT_EQ(image_of(loaded.scene).width, 100U);
+  }
+  asset.add("textures", {{"source", 1}});
+  EXPECT_THAT([&] { (void)load(asset); }, ThrowsMessage<Error>(HasSubstr("header has no size")))
+      << "has no other image";
+}
+
+TEST(GltfBasisu, TexturesAreWhiteIfTheirFallbackCannotBeReadEither) {
+  AssetBuilder asset = textured(ktx2_file("etc1s_runs_100x36").substr(0, 500));
+  asset.json["images"][1] = {{"uri", "none.png"}};
+  const LoadedScene loaded = load(asset);
+  EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("so its textures are white: "),
+                                                  HasSubstr("; its textures are white")));
 }
 
 TEST(GltfBasisu, ImagesThatCannotBeDecodedDoNotCountTowardTheLimitOfPixels) {

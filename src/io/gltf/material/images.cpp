@@ -7,6 +7,7 @@
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/document/properties.hpp"
 #include "io/gltf/extensions/extensions.hpp"
+#include "io/gltf/material/image_problems.hpp"
 #include "io/gltf/material/textures.hpp"
 #include "io/image/decode/decode_image.hpp"
 #include "io/image/decode/image_header.hpp"
@@ -18,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,18 +74,17 @@ bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   return false;
 }
 
-// What is drawn if an image can't be decoded.
-constexpr const char *kWhite = "its textures are white", *kOther = "its textures use other images";
-
 class ImageLoader {
  public:
   ImageLoader(Asset& asset, const BufferViews& views, const ResourceFolders& folders)
       : asset_(asset), views_(views), folders_(folders) {}
 
-  /// `remedy` tells what is drawn if the image can't be decoded.
-  std::shared_ptr<const Image> load(const Element& at, ImageUse use, const std::string& remedy) {
+  /// Sets `problem` if the image can't be read.
+  std::shared_ptr<const Image> load(const Element& at, ImageUse use,
+                                    std::optional<ImageProblem>& problem) {
+    using enum ImageProblem::Kind;
     if (is_missing(at)) {
-      asset_.tolerate(at.member("uri"), "names a file that does not exist; " + remedy);
+      problem = {violation, at.member("uri"), "names a file that does not exist; "};
       note_unread_resource(at.member("uri"), folders_);
       add_to_read_digest("missing image");  // the picture is another one
       return nullptr;
@@ -92,7 +93,7 @@ class ImageLoader {
     MemoryAccount file(memory_account().budget());
     const std::optional<std::string_view> bytes = bytes_of(at, storage, file);
     if (!bytes) {
-      asset_.warn(at, "is in a buffer that has no data; " + remedy);
+      problem = {limitation, at, "is in a buffer that has no data; "};
       return nullptr;
     }
     bytes_ += bytes->size();
@@ -104,16 +105,15 @@ class ImageLoader {
     const bool is_right = uri == nullptr || !is_data_uri(uri->string()) ||
                           check_media_type(asset_, at.member("uri"), header.format);
     if (header.format == ImageFormat::unknown) {
-      asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; " + remedy);
+      problem = {limitation, at, "is neither PNG, JPEG, WebP nor KTX2; "};
       return nullptr;
     }
     if (header.state == ImageHeader::State::damaged) {
-      if (remedy != kOther) asset_.fail(at, "holds a damaged image: its header has no size");
-      asset_.tolerate(at, "holds a damaged image, whose header has no size; " + remedy);
+      problem = {damaged_header, at, "holds a damaged image, whose header has no size; "};
       return nullptr;
     }
     if (header.state == ImageHeader::State::cut_off) {
-      asset_.tolerate(at, "holds an image that is truncated; " + remedy);
+      problem = {violation, at, "holds an image that is truncated; "};
       return nullptr;
     }
     const std::string_view type = declared_type(at);
@@ -123,7 +123,7 @@ class ImageLoader {
     }
     if (type != media_type(header.format)) check_extension(at, header.format);
     if (header.format == ImageFormat::ktx2) check_ktx2(at, header, *bytes, use);
-    return use.is_wanted() ? decode(at, header, *bytes, remedy) : nullptr;
+    return use.is_wanted() ? decode(at, header, *bytes, problem) : nullptr;
   }
 
  private:
@@ -180,7 +180,8 @@ class ImageLoader {
   }
 
   std::shared_ptr<const Image> decode(const Element& at, const ImageHeader& header,
-                                      std::string_view bytes, const std::string& remedy) {
+                                      std::string_view bytes,
+                                      std::optional<ImageProblem>& problem) {
     const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
     if (pixels_ + pixels > kMaxTexturePixels) {
       asset_.fail(at, "brings the images to more than 2^28 pixels, the limit", ErrorKind::limit);
@@ -189,7 +190,7 @@ class ImageLoader {
     if (decoded.image) pixels_ += pixels;
     if (decoded.no_module) {
       add_to_read_digest("without decoder");  // the picture is another one
-      asset_.warn(at, "can't be decoded, so " + remedy + ": " + decoded.complaint);
+      problem = {ImageProblem::Kind::limitation, at, kNotDecoded, ": " + decoded.complaint};
       return nullptr;
     }
     if (decoded.too_large) {
@@ -197,7 +198,7 @@ class ImageLoader {
                   ErrorKind::limit);
     }
     if (!decoded.image) {
-      asset_.tolerate(at, "can't be decoded, so " + remedy + ": " + decoded.complaint);
+      problem = {ImageProblem::Kind::violation, at, kNotDecoded, ": " + decoded.complaint};
       return nullptr;
     }
     if (!decoded.complaint.empty()) {
@@ -206,6 +207,8 @@ class ImageLoader {
     if (const JsonValue* name = at.value->find("name")) decoded.image->name = name->string();
     return std::make_shared<const Image>(std::move(*decoded.image));
   }
+
+  static constexpr const char* kNotDecoded = "can't be decoded, so ";
 
   Asset& asset_;
   const BufferViews& views_;
@@ -242,22 +245,18 @@ std::vector<std::shared_ptr<const Image>> load_images(Asset& asset, const Buffer
                                                       std::vector<Texture>& textures) {
   std::vector<std::vector<std::uint32_t>> choices;
   for (const JsonValue& json : asset.array("textures")) choices.push_back(images_of(json));
-  std::vector<const char*> remedies(uses.size(), kWhite);
-  for (const auto& images : choices)
-    for (std::size_t k = 0; k + 1 < images.size(); ++k) remedies[images[k]] = kOther;
-  for (const auto& images : choices)
-    if (!images.empty()) remedies[images.back()] = kWhite;
   ImageLoader loader(asset, views, folders);
   std::vector<std::shared_ptr<const Image>> images(uses.size());
+  std::vector<std::optional<ImageProblem>> problems(uses.size());
   const auto load = [&](std::size_t i) {
-    images[i] = loader.load(asset.element("images", i), uses[i], remedies[i]);
+    images[i] = loader.load(asset.element("images", i), uses[i], problems[i]);
   };
   for (std::size_t i = 0; i < uses.size(); ++i)
     if (uses[i].is_wanted()) load(i);
   for (std::size_t i = 0; i < textures.size(); ++i) {
     std::optional<std::uint32_t>& image = textures[i].image;
-    for (const std::uint32_t next : choices[i]) {
-      if (!image || images[*image] || !uses[*image].is_wanted()) break;
+    for (const std::uint32_t next : choices[i] | std::views::drop(1)) {
+      if (images[*image] || !uses[*image].is_wanted()) break;
       const ImageUse use = uses[*image];
       image = next;
       if (uses[next].is_wanted()) continue;
@@ -267,6 +266,7 @@ std::vector<std::shared_ptr<const Image>> load_images(Asset& asset, const Buffer
   }
   for (std::size_t i = 0; i < uses.size(); ++i)
     if (!uses[i].is_wanted()) load(i);
+  report_problems(asset, problems, uses, textures, choices);
   return images;
 }
 

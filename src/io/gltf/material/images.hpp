@@ -29,11 +29,11 @@ struct ImageUse {
                                                std::span<const Texture> textures,
                                                std::size_t images, SurfaceDetail detail);
 
-/// Returns the decoded pixels of each wanted image. The result is null for an image that is not
-/// wanted or can't be decoded. Changes textures whose images can't be decoded to other images that
-/// they have. Examines all images. Warns about unsupported formats. Throws the
-/// errors of read_resource, and Error: invalid_scene for a damaged header or, in a wanted image,
-/// damaged data; limit if the wanted images have more than kMaxTexturePixels together.
+/// Returns the decoded pixels of each wanted image, or null for an image that is not wanted or
+/// can't be decoded. Examines all images. Textures whose image can't be decoded get the next one
+/// that they have. Warns about images that can't be decoded. Throws the errors of read_resource,
+/// and Error: invalid_scene for an image with a damaged header, unless each of its textures has an
+/// image without one; limit if the decoded images have more than kMaxTexturePixels together.
 [[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(Asset& asset,
                                                                     const BufferViews& views,
                                                                     const ResourceFolders& folders,
