@@ -1,6 +1,7 @@
 #include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "io/file.hpp"
+#include "io/file_name.hpp"
 #include "io/gltf/scene/scene.hpp"
 #include "io/json/document.hpp"
 #include "io/load_clock.hpp"
@@ -22,14 +23,6 @@ namespace microtrace {
 namespace {
 
 constexpr std::string_view kGlbMagic = "glTF";
-
-std::string lower_case_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return extension;
-}
 
 /// File extensions of other common scene formats.
 constexpr std::array<std::string_view, 17> kForeignExtensions{
@@ -140,7 +133,7 @@ struct SceneFile::Content {
 SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
   const FloatEnvironment environment;
   const bool standard_input = path == "-";
-  const std::string extension = lower_case_extension(path);
+  const std::string extension = io::lower_case_extension(path);
   const std::string name = standard_input ? "(standard input)" : path.string();
   const auto inspect = [&](std::string_view first) {
     refuse_foreign_format(extension, first, name);

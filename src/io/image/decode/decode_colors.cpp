@@ -1,6 +1,7 @@
 #include "io/image/decode/decode_colors.hpp"
 
 #include "base/memory_account.hpp"
+#include "io/file_name.hpp"
 #include "io/image/decode/image_header.hpp"
 #include "io/image/module.hpp"
 #include "io/module_function.hpp"
@@ -64,10 +65,7 @@ void complain_of_colors(void* context, const char* text) {
 }
 
 std::string extension_in(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string extension = lower_case_extension(path);
   return extension.empty() ? extension : extension.substr(1);
 }
 

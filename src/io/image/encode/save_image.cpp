@@ -1,5 +1,6 @@
 #include "float_environment.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_name.hpp"
 #include "io/image/encode/png.hpp"
 #include "io/image/encode/ppm.hpp"
 #include "io/image/module.hpp"
@@ -21,10 +22,8 @@ namespace {
 /// and for streams without an extension. Otherwise throws Error(usage) if there is no extension.
 std::string format_extension(const std::filesystem::path& path) {
   if (path == "-") return "ppm";
-  std::string extension = path.extension().string();
+  const std::string extension = io::lower_case_extension(path);
   if (extension.empty() && io::is_stream(path)) return "ppm";
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   if (extension.size() < 2) {
     std::error_code ignored;
     throw Error(ErrorKind::usage, path.string(),
