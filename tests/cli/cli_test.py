@@ -410,6 +410,8 @@ class CommandLine(ProgramTest):
             result = self.run_program(SCENE, wrong, "4")
             self.assertEqual(result.returncode, 2)
             self.assertIn(f"error: unknown option {wrong.split('=')[0]}; did you mean {right}?\n", result.stderr.decode())
+        result = self.run_program("dataset", SCENE, "a.png")
+        self.assertIn('error: unexpected argument "a.png"\n', result.stderr.decode(), "its --output is a folder")
         # Tests the message without SCENE too, because CLI11 would report the missing SCENE first.
         self.assertIn(b"did you mean --samples?", self.run_program("--smaples=4").stderr)
         for arguments, message in ((["--nothing-like-it"], "error: unknown option --nothing-like-it\n"),
@@ -422,6 +424,13 @@ class CommandLine(ProgramTest):
                                    (["--ground", "1"], 'error: unexpected argument "1"; the value of --ground follows =, as in --ground=1\n'),
                                    # Words that an option before them doesn't take.
                                    (["--ground", "out.png"], 'error: unexpected argument "out.png"; did you mean --output out.png?\n'),
+                                   (["a b.PNG"], "error: unexpected argument \"a b.PNG\"; did you mean --output 'a b.PNG'?\n"),
+                                   (["it's.webp"], "error: unexpected argument \"it's.webp\"; did you mean --output 'it'\\''s.webp'?\n"),
+                                   # Words that are no names of pictures.
+                                   (["--background", "0.5", "0.5", "0.5"], 'error: unexpected argument "0.5"\n'),
+                                   (["studio.hdr"], 'error: unexpected argument "studio.hdr"\n'),
+                                   (["model.obj"], 'error: unexpected argument "model.obj"\n'),
+                                   (["a.GLB"], 'error: unexpected argument "a.GLB"\n'),
                                    (["--ground", "--stats", "json"], 'error: unexpected argument "json"; the value of --stats follows =, as in --stats=json\n'),
                                    (["-o", "a.png", "b.png"], 'error: unexpected argument "b.png"\n'),
                                    (["--spp"], "error: --spp expects a value\n"),

@@ -2,6 +2,7 @@
 
 #include "cli/options/help.hpp"
 #include "cli/options/option.hpp"
+#include "cli/options/shell_word.hpp"
 
 #include <microtrace/error.hpp>
 
@@ -25,20 +26,6 @@ std::string escaped(const std::string& text, std::string_view special) {
     out += c;
   }
   return out;
-}
-
-/// Quotes the text for any shell. Fish is the only one that interprets backslashes within single
-/// quotes.
-std::string in_single_quotes(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      out += R"('\'')";
-    } else {
-      out += c;
-    }
-  }
-  return out + "'";
 }
 
 std::vector<Option> options_of(Command command, bool are_positional) {

@@ -4,12 +4,14 @@
 #include "base/printable.hpp"
 #include "cli/arguments.hpp"
 #include "cli/options/help.hpp"
+#include "cli/options/shell_word.hpp"
+#include "io/file_name.hpp"
 
 #include <microtrace/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -54,6 +56,14 @@ bool accepts(const Option& option, const std::string& value) {
   }
 }
 
+/// Returns true if the name has the extension of a picture. Other formats that --output writes,
+/// such as .hdr, are more often those of environments.
+bool is_picture(const std::string& name) {
+  constexpr std::array<std::string_view, 8> kExtensions = {".exr", ".jpeg", ".jpg",  ".png",
+                                                           ".ppm", ".tif",  ".tiff", ".webp"};
+  return std::ranges::find(kExtensions, io::lower_case_extension(name)) != kExtensions.end();
+}
+
 /// Returns the message for a word that is neither an option nor its value. It may be meant as the
 /// value of an option whose value may be omitted, or as the file to write.
 std::string unexpected_argument(Command command, const CLI::App& app, const std::string& word) {
@@ -68,11 +78,11 @@ std::string unexpected_argument(Command command, const CLI::App& app, const std:
       return message.append("=").append(printable(word));
     }
   }
-  const std::filesystem::path extension = std::filesystem::path(word).extension();
-  const bool is_scene = extension == ".json" || extension == ".gltf" || extension == ".glb";
-  const CLI::Option* output = app.get_option_no_throw("--output");
-  if (output != nullptr && output->count() == 0 && !extension.empty() && !is_scene)
-    message.append("; did you mean --output ").append(printable(word)).append("?");
+  // The output of dataset is a folder.
+  const CLI::Option* output =
+      command == Command::dataset ? nullptr : app.get_option_no_throw("--output");
+  if (output != nullptr && output->count() == 0 && is_picture(word))
+    message.append("; did you mean --output ").append(shell_word(printable(word))).append("?");
   return message;
 }
 
