@@ -434,6 +434,10 @@ class CommandLine(ProgramTest):
                                    (["--ground", "--stats", "json"], 'error: unexpected argument "json"; the value of --stats follows =, as in --stats=json\n'),
                                    (["-o", "a.png", "b.png"], 'error: unexpected argument "b.png"\n'),
                                    (["--spp"], "error: --spp expects a value\n"),
+                                   (["--checkpoint", "c", "--resume", "--seed", "9"],
+                                    "error: --resume expects a value, but is followed by --seed\n"),
+                                   (["-o", "--size=8x6"], "error: -o expects a value, but is followed by --size=8x6\n"),
+                                   (["--output=--size"], "error: --size: has no extension"),
                                    (["-o", ""], "error: --output: expects a value, is empty\n"),
                                    (["--camera="], "error: --camera expects a value\n"),
                                    (["--evil\x1b[31m"], "error: unknown option --evil\\x1b[31m\n")):

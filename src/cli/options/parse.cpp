@@ -1,5 +1,6 @@
 #include "cli/options/parse.hpp"
 
+#include "cli/options/check_words.hpp"
 #include "cli/options/help.hpp"
 #include "cli/options/usage_error.hpp"
 
@@ -29,14 +30,10 @@ struct Given {
   std::vector<std::string> values;
 };
 
-[[noreturn]] void refuse_empty(const std::string& name) {
-  refuse_usage(name + ": expects a value, is empty");
-}
-
 /// Splits the command line with CLI11. The option table's rows convert the values.
 class Parser {
  public:
-  explicit Parser(Command command) {
+  explicit Parser(Command command) : command_(command) {
     app_.name(program_name(command));
     app_.set_help_flag();
     for (const OptionGroup& group : option_groups(command)) {
@@ -54,7 +51,7 @@ class Parser {
 
   /// Returns the given options with their values. Throws CLI::ParseError and Error (usage).
   std::vector<Given> parse(int argc, char** argv) {
-    check_flags({argv + 1, argv + argc});
+    check_words(command_, {argv + 1, argv + argc});
     app_.parse(argc, argv);
     std::vector<Given> given;
     for (const auto& [option, added] : options_) {
@@ -74,21 +71,6 @@ class Parser {
   [[nodiscard]] const CLI::App& app() const { return app_; }
 
  private:
-  /// Throws Error (usage) if a word gives a value to a switch, or an empty value to another option
-  /// that may omit it. CLI11 would accept both.
-  void check_flags(std::span<char* const> words) const {
-    for (const std::string_view word : words) {
-      if (word == "--") return;
-      const std::size_t equals = word.find('=');
-      const std::string name(word.substr(0, equals));
-      for (const auto& [option, added] : options_) {
-        if (equals == word.npos || !option->is_flag() || !added->check_name(name)) continue;
-        if (option->is_switch()) refuse_usage(name + ": takes no value");
-        if (equals + 1 == word.size()) refuse_empty(name);
-      }
-    }
-  }
-
   void add(const Option& option) {
     std::string names(option.names);
     CLI::Option* added = nullptr;
@@ -111,6 +93,7 @@ class Parser {
     options_.emplace_back(&option, added);
   }
 
+  Command command_;
   CLI::App app_;
   std::vector<std::pair<const Option*, CLI::Option*>> options_{};
 };
