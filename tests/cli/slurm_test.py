@@ -53,6 +53,13 @@ class Slurm(ProgramTest):
             time.sleep(0.05)
         self.fail("the program doesn't start")
 
+    def wait_for(self, name):
+        for _ in range(6000):
+            if (self.folder / name).exists():
+                return
+            time.sleep(0.01)
+        self.fail(f"{name} doesn't appear")
+
     def finish(self, task, code=0):
         output = task.communicate(timeout=120)[0].decode()
         self.assertEqual(task.returncode, code, output)
@@ -105,11 +112,10 @@ class Slurm(ProgramTest):
         self.assertEqual(self.requeued(), ["requeue 71_3"])
 
     def test_a_program_that_is_hung_up_saves_its_samples_and_is_not_queued_again(self):
-        command = [SCENE, "--integrator", "path", "--spp", "3000", "--size", "64x48", "--checkpoint", "part{}", "--save-every", "0"]
+        command = [SCENE, "--integrator", "path", "--spp", "12000", "--size", "64x48", "--checkpoint", "part{}", "--save-every", "0"]
         task = self.start(0, *command)
         program = self.program_of(task)
-        while not (self.folder / "part1").exists():
-            time.sleep(0.01)
+        self.wait_for("part1")
         os.kill(program, signal.SIGHUP)
         self.assertIn("the samples are saved in part1", self.finish(task, 128 + signal.SIGHUP))
         self.assertEqual(self.requeued(), [])
