@@ -598,7 +598,7 @@ class Ends(unittest.TestCase):
                 self.assertEqual(viewer.process.wait(timeout=10), 0)
 
     def test_signals(self):
-        for signal in (2, 15):
+        for signal in (1, 2, 15):
             with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:
                 path = viewer.open()
                 viewer.request("PUT", path, "--integrator\npath\n--spp\n65536")
