@@ -344,7 +344,8 @@ class Pictures(unittest.TestCase):
             words = [*kept, *given, *quantity]
             last = viewer.draw(words)[-1]
             self.assertEqual(last.headers["Content-Type"], "image/png", last.body)
-            self.assertEqual(sorted(last.picture["omitted"]), sorted(word for word in given if word.startswith("--")))
+            names = [word for word in given[:-2] if word.startswith("--")]
+            self.assertEqual(sorted(last.picture["omitted"]), sorted([*names, "--aov variance"]))
             expected = self.program_picture(scene, [*kept, *quantity])
             self.assertEqual(read_png(last.body), read_png(expected))
             self.assertEqual(viewer.request("POST", "file?format=png", "\n".join(words)).body, expected)
@@ -353,6 +354,14 @@ class Pictures(unittest.TestCase):
             self.assertEqual(viewer.draw([*spp, *flat])[-1].picture["omitted"], [])
             self.assertEqual(viewer.draw([*spp, "--bsdf", "spec", "--quality", "draft"])[-1].picture["omitted"], [])
             self.assertEqual(viewer.draw([*spp, "--bsdf", "spec", *flat])[-1].picture["omitted"], ["--bsdf"])
+
+    def test_only_channels_that_a_quantity_cannot_have_are_omitted(self):
+        scene, words = SCENES / "gltf/cube.glb", ["--size", "64x48", "--spp", "4", "--integrator", "flat"]
+        with Viewer(PROGRAM, scene) as viewer:
+            channels = [*words, "--aov", "variance,depth,noisy"]
+            self.assertEqual(viewer.draw(channels)[-1].picture["omitted"], ["--aov variance,noisy"])
+            saved = viewer.request("POST", "file?format=exr", "\n".join(channels)).body
+            self.assertEqual(saved, self.program_picture(scene, [*words, "--aov", "depth"], "expected.exr"))
 
     def test_ground_without_a_lowest_point(self):
         scene = self.folder / "planes.json"

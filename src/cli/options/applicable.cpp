@@ -18,6 +18,8 @@ struct LimitedOption {
   /// Returns the error if the option can't be applied, else an empty text.
   std::string (*error)(const Arguments&);
   void (*omit)(Arguments&);
+  /// Returns those of the option's values that can't be applied; null if it has only one value.
+  std::string (*values)(const Arguments&) = nullptr;
 };
 
 /// Returns the error about an option that needs path tracing; an empty text if it isn't given.
@@ -31,6 +33,15 @@ std::string path_error(const Arguments& a, bool is_given, std::string_view optio
 std::string channel_error(const Arguments& a) {
   if (a.aovs.sampled.empty()) return "";
   return path_error(a, true, "--aov: " + std::string(name_of(a.aovs.sampled.front())));
+}
+
+std::string sampled_channels(const Arguments& a) {
+  std::string names;
+  for (const SampledAov channel : a.aovs.sampled) {
+    if (!names.empty()) names += ',';
+    names += name_of(channel);
+  }
+  return names;
 }
 
 std::string samples_error(const Arguments& a) {
@@ -48,8 +59,10 @@ constexpr std::array kLimitedOptions{
                                           "--background: env");
                       },
                   .omit = [](Arguments& a) { a.environment.background.reset(); }},
-    LimitedOption{
-        .name = "--aov", .error = channel_error, .omit = [](Arguments& a) { a.aovs = {}; }},
+    LimitedOption{.name = "--aov",
+                  .error = channel_error,
+                  .omit = [](Arguments& a) { a.aovs.sampled.clear(); },
+                  .values = sampled_channels},
     LimitedOption{.name = "--ground",
                   .error =
                       [](const Arguments& a) {
@@ -106,12 +119,13 @@ void check_applicable(const Arguments& arguments) {
   }
 }
 
-std::vector<std::string_view> omit_inapplicable(Arguments& arguments) {
-  std::vector<std::string_view> omitted;
+std::vector<std::string> omit_inapplicable(Arguments& arguments) {
+  std::vector<std::string> omitted;
   for (const LimitedOption& option : kLimitedOptions) {
     if (option.error(arguments).empty()) continue;
+    std::string& words = omitted.emplace_back(option.name);
+    if (option.values != nullptr) words += ' ' + option.values(arguments);
     option.omit(arguments);
-    omitted.push_back(option.name);
   }
   return omitted;
 }

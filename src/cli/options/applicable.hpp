@@ -3,7 +3,7 @@
 
 #include "cli/arguments.hpp"
 
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace microtrace::cli {
@@ -11,7 +11,8 @@ namespace microtrace::cli {
 /// Throws Error (usage) if the integrator can't apply a given option. Requires choose_integrator().
 void check_applicable(const Arguments& arguments);
 
-/// Removes the options that check_applicable() refuses and returns their names.
-[[nodiscard]] std::vector<std::string_view> omit_inapplicable(Arguments& arguments);
+/// Removes what check_applicable() refuses and returns it: names of options, or an option and its
+/// removed values, as in "--aov variance,noisy".
+[[nodiscard]] std::vector<std::string> omit_inapplicable(Arguments& arguments);
 
 }  // namespace microtrace::cli

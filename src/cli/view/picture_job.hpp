@@ -27,9 +27,9 @@ namespace microtrace::cli {
 struct PictureJob {
   std::shared_ptr<const ShownScene> scene;
   Arguments arguments;  ///< with the defaults of the scene's format
-  /// The names of given options that the integrator can't apply. The page keeps them for pictures
-  /// of other integrators.
-  std::vector<std::string_view> omitted;
+  /// The given options that the integrator can't apply, as omit_inapplicable() returns them. The
+  /// page keeps them for pictures of other integrators.
+  std::vector<std::string> omitted;
   std::optional<Diagnostic> warning;  ///< about the options
   ImageSize size;
   Camera camera;  ///< in scene coordinates

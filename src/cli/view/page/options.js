@@ -43,10 +43,15 @@ export class Options {
     return new Options(this.words);
   }
 
-  /** Returns a copy without the options of these names. */
-  without(names) {
+  /** Returns a copy without these options. "--aov NAMES" stands for only these of the option's comma-separated values. */
+  without(omitted) {
     const others = this.copy();
-    for (const name of names) others.set(name, "");
+    for (const words of omitted) {
+      const [name, values] = words.split(" ");
+      const given = values === undefined ? "" : (others.get(name) ?? "");
+      const kept = given.split(",").filter((value) => !values?.split(",").includes(value));
+      others.set(name, kept.join(","));
+    }
     return others;
   }
 }
