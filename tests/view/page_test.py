@@ -257,6 +257,17 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.words(page), ["--size", "80x60", "--spp", "4", "--bsdf", "spec", "--integrator", "path"])
         self.assert_shows(page, scene)
 
+    def test_the_command_line_has_the_options_of_the_awaited_picture(self):
+        page = self.open(self.viewer(SCENES / "gltf/materials.glb", "--size", "80x60", "--spp", "4", "--bsdf", "spec"))
+        self.change(page, lambda: page.select_option("#integrator", "depth"))
+        requests = []
+        page.route("**/pictures/*", lambda route: requests.append(route) if route.request.method == "PUT" else route.continue_())
+        page.select_option("#integrator", "path")
+        wait_until(lambda: page.inner_text("#command") and requests, 60)  # reading the text lets the page send the request
+        self.assertEqual(self.words(page), ["--size", "80x60", "--spp", "4", "--bsdf", "spec", "--integrator", "path"])
+        self.change(page, requests[0].continue_)
+        self.assertEqual(self.words(page), ["--size", "80x60", "--spp", "4", "--bsdf", "spec", "--integrator", "path"])
+
     def test_warning_about_the_ground(self):
         scene = self.folder / "planes.json"
         scene.write_text('{"version": 1, "objects": [{"type": "plane", "point": [0, -1, 0], "normal": [0, 1, 0]}]}')

@@ -71,8 +71,8 @@ function showVariant({ variants }, options) {
 }
 
 /** Shows the command line that draws the picture, without the options that its integrator can't apply. */
-export function showCommand({ scene, options, status }) {
-  byId("command").textContent = commandLine(scene.name, options.without(status?.omitted ?? []));
+export function showCommand({ scene, options, omitted }) {
+  byId("command").textContent = commandLine(scene.name, options.without(omitted));
 }
 
 /** Shows the options of the side with this index, and first of all its scene if the controls show another one. */

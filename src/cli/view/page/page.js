@@ -69,6 +69,11 @@ export class Page {
     if (side.error === "") this.showComparison();
   }
 
+  /** Called when the server knows what a side requests. */
+  accepted(side) {
+    if (side === this.side) showCommand(side);
+  }
+
   /** Shows the errors of all sides, and whether something is being drawn. */
   #showState() {
     const names = this.sides.length > 1 ? ["Left picture: ", "Right picture: "] : [""];

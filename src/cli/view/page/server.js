@@ -32,7 +32,7 @@ const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, mil
 
 /**
  * A picture that the server draws and refines. `show(bitmap, status)` receives each picture, `fail(message, status)` each
- * error; `status` describes what was drawn (docs/internals.md).
+ * error; `status` describes what was drawn (docs/internals.md). `accepted()` is called when the server knows a request.
  */
 export class LivePicture {
   #id = null;
@@ -40,17 +40,25 @@ export class LivePicture {
   #isSending = false;
   #isClosed = false;
   #awaited = 0;
+  #firstCurrent = Infinity; // the first request that differs from the last one only by the camera's movement, if known
 
-  constructor(scene, show, fail) {
+  constructor(scene, show, fail, accepted) {
     this.scene = scene;
     this.show = show;
     this.fail = fail;
+    this.accepted = accepted;
   }
 
   /** Requests a picture with these words of a command line. Of several requests, only the last is sent. */
   request(words, isMoving = false) {
     this.#wanted = { words, isMoving };
+    if (!isMoving) this.#firstCurrent = Infinity;
     this.#send();
+  }
+
+  /** Returns false if the status is that of an earlier request, apart from the camera's movement. */
+  isCurrent(status) {
+    return status.request >= this.#firstCurrent;
   }
 
   close() {
@@ -69,6 +77,8 @@ export class LivePicture {
         const path = `pictures/${this.#id}${isMoving ? "?moving" : ""}`;
         const { request } = await sendForJson("PUT", path, words.join("\n"));
         this.#awaited = request;
+        if (this.#wanted === null) this.#firstCurrent = Math.min(this.#firstCurrent, request);
+        this.accepted();
         // The next picture of a moving camera is requested when this one is shown.
         if (isMoving) await this.#shown(request);
       } catch (error) {
@@ -85,6 +95,7 @@ export class LivePicture {
 
   async #open() {
     this.#id = (await sendForJson("POST", addressOf("pictures", { scene: this.scene }))).id;
+    this.#firstCurrent = Infinity; // each picture counts its own requests
     this.#receive(this.#id);
   }
 

@@ -15,10 +15,16 @@ export class Side {
   hasScene = false; // whether the scene file was ever loaded
   #revision; // of the scene file
 
-  /** `number` is that of the scene file. The page has the functions described(side) and shown(side). */
+  /** `number` is that of the scene file. The page has the functions described(side), shown(side) and accepted(side). */
   constructor(page, canvas, number, options) {
     Object.assign(this, { page, canvas, number, options });
-    this.live = new LivePicture(number, (bitmap, status) => this.#show(bitmap, status), (text, status) => this.#fail(text, status));
+    this.live = new LivePicture(number, (bitmap, status) => this.#show(bitmap, status), (text, status) => this.#fail(text, status),
+      () => page.accepted(this));
+  }
+
+  /** The options that the integrator can't apply. Empty until the server has said which. */
+  get omitted() {
+    return this.status !== null && this.live.isCurrent(this.status) ? this.status.omitted : [];
   }
 
   /** Returns a side with the same options. */
