@@ -543,6 +543,10 @@ class PageTest(unittest.TestCase):
             page = self.open(self.viewer(scene, "--size", "16x16", "--spp", "1"))
             self.assertIn("VENDOR_unknown", page.inner_text("#warnings"))
             self.assertIn("/extensionsUsed", page.inner_text("#warnings"))
+        with self.subTest("a warning without a position"):
+            scene.write_text(json.dumps({**asset, "extensionsUsed": [f"VENDOR_{i}" for i in range(120)]}))
+            page = self.open(self.viewer(scene, "--size", "16x16", "--spp", "1"))
+            self.assertRegex(page.inner_text("#warnings li:last-child"), r"^\d+ more warnings are left out$")
 
     def test_saves_and_copies(self):
         scene = SCENES / "gltf/cube.glb"

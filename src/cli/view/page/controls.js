@@ -7,7 +7,7 @@ const byId = (id) => document.getElementById(id);
 function warningItem({ pointer, line, column, message }) {
   const item = document.createElement("li");
   const place = document.createElement("code");
-  place.textContent = pointer || (line === undefined ? "" : `${line}:${column}`);
+  place.textContent = pointer || (line ? `${line}:${column}` : "");
   item.append(...(place.textContent === "" ? [message] : [place, ` ${message}`]));
   return item;
 }
