@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tracemalloc
 from functools import partial
 
 import chaos
@@ -168,6 +169,22 @@ def test_views_of_a_task_that_fails_are_not_counted_as_kept(tmp_path, monkeypatc
             assert (folder / "000000.png").stat().st_size < 11000
             assert (folder / "000005.png").stat().st_size > 11000
             assert md.dataset(client, scene, folder, **arguments) == md.Summary(6, 0, 6)
+
+
+def test_records_of_other_files_and_views_are_ignored(tmp_path):
+    (tmp_path / "records").mkdir()
+    for name in ("000001", "0000002", "000004", "000005", "1000000", "view", "00003"):
+        (tmp_path / "records" / f"{name}.json").write_text("{}")
+    (tmp_path / "records" / "000003.json.part").write_text("{}")
+    store = md.datasets.Store(str(tmp_path), {})
+    assert md.datasets.recorded_views(store, 5) == {1, 4}
+    assert md.datasets.recorded_views(store, 2_000_000) == {1, 4, 5, 1_000_000}
+    tracemalloc.start()
+    try:
+        md.datasets.recorded_views(store, 2_000_000)
+        assert tracemalloc.get_traced_memory()[1] < 1_000_000  # not in proportion to the views
+    finally:
+        tracemalloc.stop()
 
 
 def test_dask_is_optional():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import tempfile
 import threading
@@ -36,6 +37,7 @@ from ._worker import (
 _TAKEN = ("-o", "--output", "--shard", "--views", "--formats")
 #: Options whose values are paths.
 _PATHS = ("--env", "--views", "--allow-path")
+_RECORD = re.compile(r"records/([0-9]{6,})\.json")
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,13 @@ class _Content:
 
 def _record(view: int) -> str:
     return f"records/{view:06d}.json"
+
+
+def recorded_views(store: Store, count: int) -> set[int]:
+    """Returns those of the first `count` views that have records."""
+    names = store.names("records")
+    views = (int(digits[1]) for name in names if (digits := _RECORD.fullmatch(name)))
+    return {view for view in views if view < count and _record(view) in names}
 
 
 class _Views:
@@ -224,10 +233,10 @@ def dataset(
     content = _Content(words, os.getcwd(), order, files, description, store, is_new)
     count = len(order)
     # The views that a task finished before it failed are in no result.
-    kept = {_record(view) for view in range(count)} & store.names("records")
+    kept = recorded_views(store, count)
 
     def receive(first: int, last: int, value: Any) -> None:
-        kept.difference_update(_record(view) for view in value[0])
+        kept.difference_update(value[0])
         warn_once(value[1])
 
     with broadcast(client, content) as job, _shown(progress, count, "view") as show:
