@@ -17,6 +17,7 @@
 
 #include <microtrace/error.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -47,14 +48,23 @@ int exit_code_of(const Work& work) {
   }
 }
 
-/// Throws Error (limit) if the stacks of the main thread and of new threads may overflow.
+bool traces_rays(cli::Command command, const cli::Arguments& arguments) {
+  if (command == cli::Command::verify) return arguments.dataset.redraw > 0;
+  return command != cli::Command::merge && command != cli::Command::compare;
+}
+
+/// Throws Error (limit) if rays may overflow the stacks of the main thread and of new threads.
 void require_stack() {
   constexpr rlim_t kLeast = rlim_t{1} << 20U;  // the kernels for streams of rays use almost half
   rlimit stack{};
   if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kLeast) return;
-  throw Error(ErrorKind::limit, "",
-              "stacks are limited to " + std::to_string(stack.rlim_cur >> 10U) +
-                  " KiB, but microtrace needs 1024 KiB; raise the limit, as by ulimit -s 8192");
+  const rlim_t better = std::min(8 * kLeast, stack.rlim_max);  // which needs no privilege
+  throw Error(
+      ErrorKind::limit, "",
+      "stacks are limited to " + std::to_string(stack.rlim_cur >> 10U) +
+          " KiB, but microtrace needs 1024 KiB; " +
+          (better < kLeast ? "the hard limit must be raised, which needs privileges"
+                           : "raise the limit, as by ulimit -s " + std::to_string(better >> 10U)));
 }
 
 /// Applies the options that end a run early.
@@ -94,7 +104,7 @@ int run_command(const NamedCommand& named, int argc, char** argv) {
       cli::write_standard_output(*parsed.output);
       return 0;
     }
-    require_stack();
+    if (traces_rays(named.command, parsed.arguments)) require_stack();
     limit_run(parsed.arguments);
     return named.run(parsed.arguments);
   });

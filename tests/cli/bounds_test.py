@@ -57,19 +57,27 @@ class Bounds(ProgramTest):
             self.assertIn("--memory-limit", said)
 
     def test_small_stacks_are_refused(self):
-        def run(kibibytes, *arguments):
-            size = kibibytes << 10
-            return self.run_program(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_STACK, (size, size)))
+        def run(kibibytes, *arguments, hard=resource.RLIM_INFINITY):
+            limits = kibibytes << 10, hard
+            return self.run_program(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_STACK, limits))
 
         # Shadow rays of a scene with instances use most.
         words = [SOURCE / "scenes/gltf/moving.glb", *SMALL, "--size", "32x24", "--instances", "share", "--integrator", "path", "--spp", "1"]
-        refused = run(1023, *words)
-        self.assertEqual((refused.returncode, refused.stderr), (6, b"error: stacks are limited to 1023 KiB, but microtrace needs 1024 KiB; "
-                                                                   b"raise the limit, as by ulimit -s 8192\n"))
+        for hard, advice in ((resource.RLIM_INFINITY, b"raise the limit, as by ulimit -s 8192"), (5 << 20, b"raise the limit, as by ulimit -s 5120"),
+                             (1023 << 10, b"the hard limit must be raised, which needs privileges")):
+            refused = run(1023, *words, hard=hard)
+            message = b"error: stacks are limited to 1023 KiB, but microtrace needs 1024 KiB; " + advice + b"\n"
+            self.assertEqual((refused.returncode, refused.stderr), (6, message))
         self.assertEqual(run(64, "--help").returncode, 0)
         for threads in ("1", "2"):
             drawn = run(1024, *words, "--threads", threads)
             self.assertEqual((drawn.returncode, drawn.stderr), (0, b""))
+        # Commands that trace no rays need less.
+        self.assertEqual(run(1024, *words, "--checkpoint", "part").returncode, 0)
+        self.assertEqual(run(1024, "dataset", words[0], "--size", "8x6", "-o", "set", "-q").returncode, 0)
+        for command in (["merge", "part", "-o", "a.png"], ["compare", "a.png", "a.png"], ["verify", "set", "--redraw", "0"]):
+            self.assertEqual(run(512, *command).returncode, 0, command)
+        self.assertEqual(run(512, "verify", "set").returncode, 6)
 
     def test_allocations_beyond_the_limit_are_refused(self):
         limit = 64
