@@ -46,7 +46,7 @@ inline Lanes touched_children(const WideNode& node, const ClosedBox& box) {
   return lanes;
 }
 
-/// Returns the boxes among N that overlap another box, which may not be empty.
+/// Returns the boxes among N that overlap another box. No box may be empty.
 template <int N>
 inline Lanes overlapping(const float (&lo)[3], const float (&hi)[3], const Float<N> (&los)[3],
                          const Float<N> (&his)[3]) {

@@ -40,7 +40,7 @@ struct GuideTable {
 /// Directions that are sampled from tables.
 template <int width>
 struct alignas(64) GuideLanes {
-  const GuideTable* tables[width];  ///< never null
+  const GuideTable* tables[width];  ///< null only if there is nothing to sample
   float u[2][width];                ///< random numbers in [0, 1)
   float wi[3][width];               ///< unit directions; set by sample_guides()
   float pdf[width];                 ///< of wi, per steradian; set by guide_pdfs()

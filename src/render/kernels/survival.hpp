@@ -15,11 +15,12 @@ Float<N> survival_of(const Floats3<N>& throughput) {
 
 /// Limits survival probabilities to `most`, so that paths between white surfaces end. Each time,
 /// the throughput of such a path grows. Paths that survived often would be rare and very bright, so
-/// paths with a great throughput survive certainly.
+/// the limit is higher for paths with a great throughput.
 template <int N>
 Float<N> limited_survival(const Float<N>& wanted, const Floats3<N>& throughput, float most) {
-  constexpr float kGreat = 4;
-  return greatest_component(throughput) > kGreat ? all<N>(1) : smaller_of(wanted, all<N>(most));
+  constexpr float kGreat = 4, kMostOfGreat = 0.995F;
+  const auto is_great = greatest_component(throughput) > kGreat;
+  return smaller_of(wanted, is_great ? all<N>(kMostOfGreat) : all<N>(most));
 }
 
 /// The survival probability of a path with this throughput, if it had been sampled by the BSDF

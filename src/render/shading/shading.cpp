@@ -56,6 +56,11 @@ bool has_map(const TextureSlot& slot) {
   return slot.map != nullptr;
 }
 
+bool covers_completely(const TexturedMaterial& look) {
+  return !is_thin_glass(*look.material) && !look.has_open_opaque_parts &&
+         look.material->alpha_mode == AlphaMode::opaque;
+}
+
 bool is_missing_back(const ShadingPoint& point) {
   return !point.at.front && !has_back(*point.look->material);
 }
@@ -86,8 +91,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
         (!transmits_diffusely(material) || has_map(look[MaterialTexture::diffuse_transmission]));
     look.is_textured = std::ranges::any_of(look.slots, has_map);
     look.has_back = has_back(material);
-    look.is_opaque = !is_thin_glass(material) && !look.has_open_opaque_parts &&
-                     material.alpha_mode == AlphaMode::opaque;
+    look.is_opaque = covers_completely(look);
     has_textures_ |= look.is_textured;
     // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
     if (look.has_rare_textures() || material.anisotropy || encloses_medium(material)) return;
@@ -112,6 +116,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
         closed[look] = static_cast<std::uint32_t>(looks_.size());
         TexturedMaterial copy = looks_[look];
         copy.has_open_back = copy.has_open_opaque_parts = false;
+        copy.is_opaque = covers_completely(copy);
         looks_.push_back(copy);
       }
       look = *closed[look];

@@ -185,9 +185,8 @@ class Shading {
   }
   /// True if a material has textures, so that the footprints of paths matter.
   [[nodiscard]] bool has_textures() const { return has_textures_; }
-  /// True if lets_light_in() may return true for a point of a surface that has no transmission.
-  /// all_cover() is false if there are surfaces with transmission, so no shadow ray takes a
-  /// shortcut.
+  /// True if there are surfaces with TexturedMaterial::has_open_back. TexturedMaterial::is_opaque
+  /// is false for those with has_open_opaque_parts, so no shadow ray takes a shortcut there.
   [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
   /// The triangles with open backs, one bit per primitive. Null if there are none, or if other
