@@ -1,10 +1,10 @@
+#include "accel/kernels/near/touching.hpp"
 #include "accel/kernels/packet/packet.hpp"
 #include "accel/kernels/packet/packet_rays.hpp"
 #include "accel/kernels/packet/packet_shapes.hpp"
 #include "accel/kernels/round_t.hpp"
 #include "accel/kernels/stream.hpp"
 #include "accel/kernels/stream_rays.hpp"
-#include "accel/kernels/touching.hpp"
 
 namespace microtrace {
 const Kernels kAvx2Kernels{"avx2",
