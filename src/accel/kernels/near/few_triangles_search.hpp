@@ -28,7 +28,8 @@ class FewTrianglesSearch {
         const FewTriangles::Facet& facet = tree_.few->facets[k];
         const Lanes near = all_queries & overlapping<N>(facet.box.lo, facet.box.hi, lo, hi);
         if (near == 0) continue;
-        for (const int number : {facet.first, facet.second}) {
+        const int numbers[] = {facet.first, facet.second};
+        for (const int number : numbers) {
           if (number < 0) break;
           const FewTriangles::Entry& triangle = tree_.few->entries[number];
           Lanes lanes = without_omitted(triangle, first, near);

@@ -19,7 +19,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -255,13 +254,13 @@ std::vector<std::shared_ptr<const Image>> load_images(Asset& asset, const Buffer
     if (uses[i].is_wanted()) load(i);
   for (std::size_t i = 0; i < textures.size(); ++i) {
     std::optional<std::uint32_t>& image = textures[i].image;
-    for (const std::uint32_t next : choices[i] | std::views::drop(1)) {
+    for (std::size_t k = 1; k < choices[i].size(); ++k) {
       if (images[*image] || !uses[*image].is_wanted()) break;
       const ImageUse use = uses[*image];
-      image = next;
-      if (uses[next].is_wanted()) continue;
-      uses[next] = use;
-      load(next);
+      image = choices[i][k];
+      if (uses[*image].is_wanted()) continue;
+      uses[*image] = use;
+      load(*image);
     }
   }
   for (std::size_t i = 0; i < uses.size(); ++i)
