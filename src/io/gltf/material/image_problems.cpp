@@ -49,8 +49,8 @@ void report_problems(Asset& asset, std::span<const std::optional<ImageProblem>> 
     const auto& [kind, at, message, reason] = *problems[i];
     if (kind == ImageProblem::Kind::damaged_header && outcomes[i].some_all_damaged)
       asset.fail(at, "holds a damaged image: its header has no size");
-    const std::string text =
-        message + (uses[i].is_wanted() ? remedy(outcomes[i]) : "it is not used") + reason;
+    std::string text = message;
+    text.append(uses[i].is_wanted() ? remedy(outcomes[i]) : "it is not used").append(reason);
     if (kind == ImageProblem::Kind::limitation)
       asset.warn(at, text);
     else
