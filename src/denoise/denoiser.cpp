@@ -121,6 +121,7 @@ std::vector<bool> noisy_alphas(const Film& film, std::span<const Vec3> normals) 
 
 /// Removes the noise of alpha in these pixels. Overwrites images.color.
 void filter_alpha(Film& film, Filters& filters, const std::vector<bool>& is_noisy, Images& images) {
+  if (std::ranges::find(is_noisy, true) == is_noisy.end()) return;
   const auto [width, height] = film.size();
   for (std::uint32_t y = 0, i = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x, ++i) images.color[i] = Vec3(film.alpha_at(x, y));
