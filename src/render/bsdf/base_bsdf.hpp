@@ -144,7 +144,7 @@ class BaseBsdf {
   /// The reflectance of metal and dielectric combined.
   [[nodiscard]] V reflectance(const F& cosine) const;
   /// The fraction of the light through the microfacet with normal h that a coating behind the
-  /// surface reflects toward wi
+  /// surface reflects toward wi.
   [[nodiscard]] F returned(const V& wi, const V& h) const;
   /// The probability of sampling reflection, given a sampled microfacet normal.
   [[nodiscard]] F reflection_probability(const Shares& shares) const;

@@ -82,8 +82,8 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   } else {
     spread /= kInversePi;
   }
-  const F rarest = spread > (kIsPlain ? 0.01F : 0.002F) ? all<N>(0.1F)
-                                                        : smaller_of(F(10 * spread), all<N>(0.02F));
+  const F rarest =
+      spread > (kIsPlain ? 0.01F : 0.002F) ? most_rare : smaller_of(F(10 * spread), all<N>(0.02F));
   const F part = facets / (facets + spread);
   const F least_facets = features_.refracts ? least_of(part) : all<N>(0.05F);
   const F share = clamped(part, least_facets, F(1 - rarest));
