@@ -132,4 +132,18 @@ inline constexpr std::uint32_t kMaxLeafEntries = 1U << 27U;
 inline constexpr std::uint32_t kMaxLeafCount = 8;
 }  // namespace child_ref
 
+/// The range of a leaf's entries in the array for this kind of leaf.
+struct LeafEntries {
+  std::uint32_t begin, end;
+};
+
+namespace {
+
+inline LeafEntries entries_of(ChildRef leaf) {
+  const std::uint32_t begin = (leaf & ~child_ref::kKind) >> 3U;
+  return {begin, begin + (leaf & 7U) + 1};
+}
+
+}  // namespace
+
 }  // namespace microtrace

@@ -95,7 +95,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       continue;
     }
     poll();
-    const auto [begin, end] = build::entries_of(next);
+    const auto [begin, end] = entries_of(next);
     const bool are_triangles = build::kind_of(next) == child_ref::kTriangles;
     for (std::uint32_t k = begin; k < end; ++k) {
       if (!are_triangles) {

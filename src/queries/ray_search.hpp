@@ -43,7 +43,7 @@ void for_each_candidate(const TreeTarget& target, const Ray& ray, const OnBlock&
         stack[size++] = node.child[std::countr_zero(lanes)];
       continue;
     }
-    const auto [begin, end] = build::entries_of(next);
+    const auto [begin, end] = entries_of(next);
     const bool are_triangles = build::kind_of(next) == child_ref::kTriangles;
     for (std::uint32_t i = begin; i < end; ++i) {
       if (!are_triangles) {

@@ -110,7 +110,7 @@ class Search {
   }
 
   void visit_triangles(ChildRef leaf, double from) {
-    const auto [begin, end] = build::entries_of(leaf);
+    const auto [begin, end] = entries_of(leaf);
     for (std::size_t k = begin; k < end; ++k)
       for (std::size_t i = 0; i < kWidth && is_used(tree_.blocks[k], i); ++i)
         consider(tree_.blocks[k].id[i], from);

@@ -69,16 +69,11 @@ struct BlockTest {
   alignas(32) float height_[kWidth], size_[kWidth], height_error_[kWidth];
 };
 
-inline std::uint32_t first_entry(ChildRef leaf) {
-  return (leaf & ~child_ref::kKind) >> 3U;
-}
-
 /// Calls f(entry) for each entry of a leaf until f returns true. Returns true if f did.
 template <class F>
 inline bool for_each_entry(ChildRef leaf, const F& f) {
-  const std::uint32_t first = first_entry(leaf);
-  const std::uint32_t count = (leaf & 7U) + 1;
-  for (std::uint32_t i = first; i < first + count; ++i) {
+  const auto [begin, end] = entries_of(leaf);
+  for (std::uint32_t i = begin; i < end; ++i) {
     if (f(i)) return true;
   }
   return false;

@@ -157,7 +157,7 @@ class StreamWalk {
     // Always inlined, because GCC would not do so by itself, which makes traversal a tenth slower.
     for_each(
         leaves_, [&](Flight & flight, ChildRef & next) __attribute__((always_inline)) {
-          const TriangleBlock& block = scope(flight).blocks[first_entry(next)];
+          const TriangleBlock& block = scope(flight).blocks[entries_of(next).begin];
           if (in_instance(flight))
             flight.test.run(block, flight.inner, flight.ray.t_begin, flight.best.hi);
           else

@@ -40,7 +40,7 @@ void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
       }
       continue;
     }
-    const auto [begin, end] = build::entries_of(next);
+    const auto [begin, end] = entries_of(next);
     const bool are_triangles = build::kind_of(next) == child_ref::kTriangles;
     for (std::uint32_t k = begin; k < end; ++k) {
       if (!are_triangles) {

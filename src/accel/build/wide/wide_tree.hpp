@@ -35,15 +35,6 @@ void set_box(WideNode& node, std::size_t i, const Box& box);
   return ref & child_ref::kKind;
 }
 
-/// The range of a leaf's entries in the array for this kind of leaf.
-struct LeafEntries {
-  std::uint32_t begin, end;
-};
-[[nodiscard]] inline LeafEntries entries_of(ChildRef leaf) {
-  const std::uint32_t begin = (leaf & ~child_ref::kKind) >> 3U;
-  return {.begin = begin, .end = begin + (leaf & 7U) + 1};
-}
-
 /// Fills a block, slot by slot.
 class BlockFiller {
  public:

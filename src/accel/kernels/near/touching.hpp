@@ -99,7 +99,7 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQueries& queries, i
     search.stack[search.size++] = instance.mesh->root;
     return;
   }
-  const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
+  const auto [first, end] = entries_of(next);
   const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
   bool overflows = false;
   for (std::uint32_t entry = first; entry < end && !overflows; ++entry) {
@@ -196,7 +196,7 @@ class TreeSearch {
   }
 
   void search_leaf(ChildRef leaf, Lanes queries) {
-    const std::uint32_t first = (leaf & ~child_ref::kKind) >> 3U, end = first + (leaf & 7U) + 1;
+    const auto [first, end] = entries_of(leaf);
     for (std::uint32_t entry = first; entry < end; ++entry) {
       if ((leaf & child_ref::kKind) != child_ref::kTriangles) {
         for (Lanes rest = queries; rest != 0; rest &= rest - 1) {

@@ -170,7 +170,7 @@ class PacketWalk {
     const auto p = is_node
                        ? reinterpret_cast<std::uintptr_t>(scope_.nodes) + child * sizeof(WideNode)
                        : reinterpret_cast<std::uintptr_t>(scope_.blocks) +
-                             first_entry(child) * sizeof(TriangleBlock);
+                             entries_of(child).begin * sizeof(TriangleBlock);
     for (std::uintptr_t i = 0; i < 4; ++i) {
       // NOLINTNEXTLINE(performance-no-int-to-ptr): only prefetched
       __builtin_prefetch(reinterpret_cast<const void*>(p + 64 * i));
