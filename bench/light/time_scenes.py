@@ -7,33 +7,10 @@ Both render at equal size, samples and depth on one thread, alternately. Loading
 import argparse
 import pathlib
 import statistics
-import time
 
-import drjit
-import mitsuba as mi
-import numpy as np
+from renderers import Microtrace, Mitsuba  # sets Mitsuba's variant, which hard_scenes needs
 
-mi.set_variant("llvm_ad_rgb")
-drjit.set_thread_count(1)
-
-import hard_scenes  # noqa: E402, needs the variant
-import time_helmet  # noqa: E402
-
-
-def ours(program, folder, scene, spp, size, seed):
-    """Returns the seconds of rendering: the difference from a process that renders one pixel."""
-    command = [program, f"{scene.name}.glb", "-q", "-t", "1", "--integrator", "path", "--background", "env", "--spp", str(spp),
-               "--seed", str(seed), "--max-depth", str(scene.depth), "--size", "x".join(map(str, size)), *scene.options,
-               "-o", f"{scene.name}_ours.exr"]
-    whole, _ = time_helmet.cpu(command, folder)
-    rest, _ = time_helmet.cpu([*command[:-1], "pixel.exr", "--crop", "0,0,1,1"], folder)
-    return whole - rest
-
-
-def theirs(scene, spp, seed):
-    begin = time.process_time()
-    picture = np.array(mi.render(scene, spp=spp, seed=seed))
-    return time.process_time() - begin, picture
+import hard_scenes
 
 
 def main():
@@ -51,19 +28,17 @@ def main():
     print("scene | CPU s, ours | Mitsuba LLVM's | ratio | mean, ours | Mitsuba's", flush=True)
     for name in options.scenes or hard_scenes.SCENES:
         scene = hard_scenes.SCENES[name](options.folder).finish()
-        film = scene.mitsuba["sensor"]["film"]
-        film["width"], film["height"] = size
-        loaded = mi.load_dict(scene.mitsuba)
-        theirs(loaded, options.spp, 99)  # compiles
-        a, b, pictures = [], [], []
+        ours, theirs = Microtrace(program), Mitsuba()
+        runs = {ours: [], theirs: []}
+        for renderer in runs:
+            renderer.load(options.folder, scene, size)
+        theirs.render(options.spp, 99)  # compiles
         for seed in range(options.runs):
-            a.append(ours(program, options.folder, scene, options.spp, size, seed))
-            seconds, picture = theirs(loaded, options.spp, seed)
-            b.append(seconds)
-            pictures.append(picture[..., :3])
-        mean = np.array(mi.Bitmap(str(options.folder / f"{name}_ours.exr")))[..., :3].mean()
-        print(f"{name} | {statistics.median(a):.2f} | {statistics.median(b):.2f} | {statistics.median(b) / statistics.median(a):.2f} | "
-              f"{mean:.5f} | {np.mean(pictures):.5f}", flush=True)
+            for renderer, results in runs.items():
+                results.append(renderer.render(options.spp, seed))
+        a, b = (statistics.median(seconds for seconds, _ in results) for results in runs.values())
+        means = (statistics.mean(float(picture.mean()) for _, picture in results) for results in runs.values())
+        print(f"{name} | {a:.2f} | {b:.2f} | {b / a:.2f} | " + " | ".join(f"{mean:.5f}" for mean in means), flush=True)
 
 
 if __name__ == "__main__":
