@@ -100,7 +100,7 @@ class Both:
             base["baseColorTexture"] = self.alpha_texture(mask_png)
             material |= {"alphaMode": "MASK", "alphaCutoff": 0.5}
             opacity = {"type": "bitmap", "filename": str(mask_png), "raw": True, "filter_type": "nearest"}
-            bsdf = {"type": "mask", "opacity": self.upright(opacity), "bsdf": bsdf}
+            bsdf = {"type": "mask", "opacity": opacity, "bsdf": bsdf}
         if emission:
             material |= {"emissiveFactor": [1, 1, 1], "doubleSided": False}
             material.setdefault("extensions", {})["KHR_materials_emissive_strength"] = {"emissiveStrength": emission}
@@ -109,19 +109,13 @@ class Both:
                 material["emissiveTexture"] = self.glb.texture(emissive_png)
                 x = np.array(mi.Bitmap(str(emissive_png))) / np.float32(255)
                 light = emission * np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
-                shape["emitter"]["radiance"] = self.upright(
-                    {"type": "bitmap", "bitmap": mi.Bitmap(light.astype(np.float32)), "raw": True})
+                shape["emitter"]["radiance"] = {"type": "bitmap", "bitmap": mi.Bitmap(light.astype(np.float32)), "raw": True}
         shape["bsdf"] = bsdf
         self.mitsuba[f"shape{number}"] = shape
         has_texture = emissive_png or mask_png
         primitive = self.glb.primitive({k: v for k, v in mesh.items() if k != "uvs" or has_texture},
                                        self.glb.add("materials", material))
         self.glb.add_node(mesh=self.glb.add("meshes", {"primitives": [primitive]}))
-
-    @staticmethod
-    def upright(texture):
-        """Flips a texture of Mitsuba, for which v points up, to glTF's orientation."""
-        return texture | {"to_uv": mi.ScalarTransform4f().scale([1, -1, 1])}
 
     def alpha_texture(self, gray_png):
         """A white texture whose alpha is the gray value of a file."""
