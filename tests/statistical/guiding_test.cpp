@@ -216,10 +216,17 @@ TEST(Window, CellsSeeTheLightThatPassesThePane) {
   const Vec3 corner(2, kLow, kLeft), up(0, kHigh - kLow, 0), along(0, 0, kRight - kLeft);
   const Shape inwards = parallelogram(corner, along, up),
               outwards = parallelogram(corner, up, along);
-  Material wall, glass, one_sided;
+  Material wall, lamp, glass, masked, one_sided;
   glass.alpha_mode = AlphaMode::blend;
   glass.base_color.w = 0.25F;
   EXPECT_EQ(light_on_floor(closed_by(wall, inwards)), none);
+  lamp.emissive = Vec3(1);
+  EXPECT_EQ(light_on_floor(closed_by(lamp, inwards)), none);
+  masked.alpha_mode = AlphaMode::mask;
+  masked.base_color.w = 0.25F;
+  EXPECT_EQ(light_on_floor(closed_by(masked, inwards)), open);
+  masked.alpha_cutoff = 0.125F;
+  EXPECT_EQ(light_on_floor(closed_by(masked, inwards)), none);
   const std::vector<double> dimmed = light_on_floor(closed_by(glass, inwards));
   for (std::size_t bin = 0; bin < open.size(); ++bin) EXPECT_NEAR(dimmed[bin], 0.75 * open[bin], 1);
   one_sided.double_sided = false;
