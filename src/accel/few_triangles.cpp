@@ -3,6 +3,7 @@
 #include "accel/build/wide/wide_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -17,6 +18,8 @@ namespace {
 using build::largest_component;
 using Entry = FewTriangles::Entry;
 using Facet = FewTriangles::Facet;
+
+constexpr double kRoundoff = 0x1p-24;  // of float32
 
 void put(const Vec3& v, float (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = v[k];
@@ -110,6 +113,33 @@ bool join(const Entry& first, const Entry& second, int number, double most_growt
   return true;
 }
 
+/// Sets the rectangle of a facet with an axis. Returns false if its corners are not exact.
+bool put_rectangle(const FewTriangles& few, Facet& facet) {
+  FewTriangles::Rectangle& to = facet.rectangle;
+  to.plane = facet.a[facet.axis];
+  double diagonal_error = 16 * kRoundoff;
+  for (int k = 0; k < 2; ++k) {
+    const int axis = (facet.axis + 1 + k) % 3;
+    const float low = facet.box.lo[axis], high = facet.box.hi[axis];
+    for (const int number : {facet.first, facet.second}) {
+      for (int corner = 0; corner < 3 && number >= 0; ++corner) {
+        const float at = few.entries[number].vertices[corner][axis];
+        if (at != low && at != high) return false;
+      }
+    }
+    const double half = (double{high} - low) / 2, edge = (k == 0 ? facet.e1 : facet.e2)[axis];
+    to.middle[k] = static_cast<float>((double{low} + high) / 2);
+    // See RectangleTest.
+    const double error = 16 * kRoundoff * (half + std::abs(double{to.middle[k]})) + 0x1p-100;
+    to.inner[k] = static_cast<float>(half - error);
+    to.outer[k] = static_cast<float>(half + error);
+    to.per_edge[k] = static_cast<float>(1 / edge);
+    diagonal_error += error / half;
+  }
+  to.diagonal_error = static_cast<float>(diagonal_error);
+  return facet.box.lo[facet.axis] == facet.box.hi[facet.axis];
+}
+
 Entry entry_of(const TriangleBlock& block, std::size_t lane) {
   const auto [a, b, c] = build::triangle_in(block, lane);
   Entry entry{};
@@ -155,6 +185,10 @@ std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree, double most_
     if (is_joined) continue;
     facets = std::span(result->facets).first(facets.size() + 1);
     facets.back() = facet_of(entry, number, block);
+  }
+  for (Facet& facet : facets) {
+    if (facet.axis < FewTriangles::kOblique && !put_rectangle(*result, facet))
+      facet.axis = FewTriangles::kOblique;
   }
   std::ranges::stable_sort(facets, {}, &Facet::axis);
   for (int axis = 0; axis <= FewTriangles::kOblique; ++axis)

@@ -69,14 +69,24 @@ struct FewTriangles {
     float plane_at;          ///< its coordinate on this axis
     std::uint32_t id, slot;  ///< slot: the block's index times kWidth, plus the lane
   };
+  /// An axis-aligned rectangle. Elements of arrays are for the axes i + 1 and i + 2 (modulo 3) if
+  /// it is perpendicular to the axis i.
+  struct Rectangle {
+    float plane;               ///< coordinate on the axis i
+    float middle[2];           ///< rounded
+    float inner[2], outer[2];  ///< half of the extents, less and more by a bound of errors
+    float per_edge[2];         ///< 1 / e1 and 1 / e2 of the facet
+    float diagonal_error;      ///< bound of errors relative to the edges
+  };
   /// A triangle (a, a + e1, a + e2), or two triangles that form a parallelogram up to rounding, of
   /// which this is the first: the other is (a + e1 + e2, a + e2, a + e1).
   struct Facet {
     float a[3], e1[3], e2[3];
     float n[3];  ///< e1 x e2
-    /// The axis i of n if e1, e2 and n are along the axes i + 1, i + 2 and i (modulo 3), otherwise
-    /// kOblique.
+    /// The axis i of n if e1 and e2 are along the axes i + 1 and i + 2 (modulo 3) and the fourth
+    /// corner is exact, otherwise kOblique.
     int axis;
+    Rectangle rectangle;  ///< unless the axis is kOblique
     /// As in a block. For a parallelogram, edge_product is enlarged and height_slack is an
     /// additional error of heights, because of the rounding of its fourth corner.
     float largest_edge, edge_product, height_slack;

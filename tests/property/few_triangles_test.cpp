@@ -63,16 +63,18 @@ Triangle turned(Random& random, Triangle t) {
   return t;
 }
 
-/// A scene of parallelograms, each of two triangles.
+/// A scene of parallelograms, each of two triangles, and of a few single triangles if there are
+/// several. Many of the parallelograms are exact.
 struct Parallelograms {
   std::vector<Corners> corners;
   Scene scene;
 
   Parallelograms(Random& random, int count, int most_errors) {
     for (int i = 0; i < count; ++i) {
-      const Corners& p = corners.emplace_back(random_corners(random, most_errors));
+      const Corners& p =
+          corners.emplace_back(random_corners(random, random.one_in(2) ? 0 : most_errors));
       add(turned(random, {.a = p.a, .b = p.b, .c = p.c}));
-      add(turned(random, {.a = p.d, .b = p.b, .c = p.c}));
+      if (count == 1 || !random.one_in(8)) add(turned(random, {.a = p.d, .b = p.b, .c = p.c}));
     }
   }
 
@@ -110,13 +112,15 @@ TEST(FewTriangles, RaysThroughParallelogramsHaveTheirExactHits) {
   with_each_kernel([] {
     Random random = traversal::announced_random(61);
     const std::size_t rounds = traversal::ray_count(0.1) / kRays;
-    std::size_t triangles = 0, joined = 0, hits = 0;
+    std::size_t triangles = 0, joined = 0, rectangles = 0, hits = 0;
     for (std::size_t round = 0; round < rounds; ++round) {
       const Parallelograms all(random, random.between(1, 5), 1 << random.between(0, 4));
       const Bvh bvh(all.scene);
       const Primitives primitives(all.scene);
       triangles += primitives.count();
-      joined += joined_triangles(*few_triangles(build_tree(primitives, {})));
+      const auto few = few_triangles(build_tree(primitives, {}));
+      joined += joined_triangles(*few);
+      rectangles += static_cast<std::size_t>(few->ends[FewTriangles::kOblique - 1]);
       std::vector<Ray> rays;
       for (std::size_t i = 0; i < kRays; ++i) rays.push_back(random_ray(random, all));
       std::vector<std::optional<Hit>> found(kRays);
@@ -131,6 +135,7 @@ TEST(FewTriangles, RaysThroughParallelogramsHaveTheirExactHits) {
       }
     }
     EXPECT_GT(joined, triangles / 2);
+    EXPECT_GT(rectangles, rounds / 2);
     EXPECT_GT(hits, rounds * kRays / 4);
   });
 }
@@ -204,19 +209,30 @@ TEST(FewTriangles, DistancesOfTheFourthCornerAreCovered) {
   });
 }
 
+/// The triangle (0, 0, 0), (1, 0, 0), (0, 0, 1), and another one with this vertex beyond the
+/// diagonal.
+std::unique_ptr<const FewTriangles> quadrilateral(const Vec3& fourth) {
+  const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 0, 1);
+  Scene scene;
+  scene.objects.push_back({.name = "", .shape = Triangle{.a = a, .b = b, .c = c}});
+  scene.objects.push_back({.name = "", .shape = Triangle{.a = c, .b = b, .c = fourth}});
+  return few_triangles(build_tree(Primitives(scene), {}));
+}
+
 TEST(FewTriangles, OnlyParallelogramsAreJoined) {
-  const auto joined = [](const Vec3& fourth) {
-    const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 0, 1);
-    Scene scene;
-    scene.objects.push_back({.name = "", .shape = Triangle{.a = a, .b = b, .c = c}});
-    scene.objects.push_back({.name = "", .shape = Triangle{.a = c, .b = b, .c = fourth}});
-    return joined_triangles(*few_triangles(build_tree(Primitives(scene), {})));
-  };
+  const auto joined = [](const Vec3& fourth) { return joined_triangles(*quadrilateral(fourth)); };
   EXPECT_EQ(joined({1, 0, 1}), 2U);
   EXPECT_EQ(joined({1 + 0x1p-22F, 0, 1}), 2U);
   EXPECT_EQ(joined({1 + 0x1p-20F, 0, 1}), 0U);
   EXPECT_EQ(joined({1, 0x1p-20F, 1}), 0U);
   EXPECT_EQ(joined({-1, 0, -1}), 0U);
+}
+
+TEST(FewTriangles, RectanglesAreExact) {
+  const auto axis = [](const Vec3& fourth) { return quadrilateral(fourth)->facets[0].axis; };
+  EXPECT_EQ(axis({1, 0, 1}), 1);
+  EXPECT_EQ(axis({1 + 0x1p-22F, 0, 1}), FewTriangles::kOblique);
+  EXPECT_EQ(axis({1, 0x1p-30F, 1}), FewTriangles::kOblique);
 }
 
 }  // namespace

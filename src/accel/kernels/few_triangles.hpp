@@ -5,6 +5,7 @@
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"
+#include "accel/kernels/rectangle_test.hpp"
 
 namespace microtrace {
 namespace {
@@ -37,36 +38,38 @@ class FewTrianglesWalk {
     Lanes maybe, certain;  ///< as in VolumeTest
     Lanes unsure = 0;      ///< lanes of `maybe` that may pass through an open front
   };
+  /// The rays that may hit a facet.
+  struct FacetHits {
+    Lanes maybe, certain;  ///< as in VolumeTest
+    Lanes first, second;   ///< lanes that certainly don't hit the other triangle
+    Lanes with_t;          ///< lanes in which t is valid
+    Interval<F> t;
+  };
   /// The rays that are being traced, and the bounds of t of their nearest hits so far.
   struct Group {
+    RectangleRays<N> rectangle_rays;
     Lanes rays;
-    F o[3], d[3], d_sum, begin, t_min, best_lo, best_hi;
-    F limit;  ///< best_hi, but at most kFarthestHit
+    F d_sum, begin, t_min, best_lo{}, best_hi{};
+    F limit{};  ///< best_hi, but at most kFarthestHit
   };
 
   /// Updates the nearest hits of rays first_ to first_ + N - 1.
   void meet_all() {
     const int rest = stream_.count - first_;
-    Group group;
-    group.rays = rest < N ? (Lanes{1} << rest) - 1 : kAllLanes<N>;
+    Group group{.rectangle_rays{stream_, first_},
+                .rays = rest < N ? (Lanes{1} << rest) - 1 : kAllLanes<N>,
+                .d_sum = load<N>(stream_.d_sum + first_),
+                .begin = load<N>(stream_.t_begin + first_),
+                .t_min = load<N>(stream_.t_min + first_)};
     if (kAny) group.rays &= without_hit();
-    for (int axis = 0; axis < 3; ++axis) {
-      group.o[axis] = load<N>(stream_.o[axis] + first_);
-      group.d[axis] = load<N>(stream_.d[axis] + first_);
-    }
-    group.d_sum = load<N>(stream_.d_sum + first_);
-    group.begin = load<N>(stream_.t_begin + first_);
-    group.t_min = load<N>(stream_.t_min + first_);
     load_best(group);
     const FewTriangles& few = *tree_.few;
     int i = 0;
-    for (; i < few.ends[0] && group.rays != 0; ++i) meet_upright<0>(few.facets[i], group);
-    for (; i < few.ends[1] && group.rays != 0; ++i) meet_upright<1>(few.facets[i], group);
-    for (; i < few.ends[2] && group.rays != 0; ++i) meet_upright<2>(few.facets[i], group);
-    for (; i < few.ends[FewTriangles::kOblique] && group.rays != 0; ++i) {
-      const FewTriangles::Facet& facet = few.facets[i];
-      meet(facet, facet.e1, facet.e2, facet.n, group);
-    }
+    for (; i < few.ends[0] && group.rays != 0; ++i) meet_rectangle<0>(few.facets[i], group);
+    for (; i < few.ends[1] && group.rays != 0; ++i) meet_rectangle<1>(few.facets[i], group);
+    for (; i < few.ends[2] && group.rays != 0; ++i) meet_rectangle<2>(few.facets[i], group);
+    for (; i < few.ends[FewTriangles::kOblique] && group.rays != 0; ++i)
+      meet_oblique(few.facets[i], group);
     store_best(group);
   }
 
@@ -84,66 +87,92 @@ class FewTrianglesWalk {
     store<N>(stream_.best_hi + first_, group.best_hi);
   }
 
-  /// Meets a facet whose edges and normal are along axes. Most of the products would be zero.
+  /// Update the nearest hits of the rays that hit a facet.
   template <int kAxis>
-  __attribute__((always_inline)) void meet_upright(const FewTriangles::Facet& facet, Group& group) {
-    constexpr int kFirst = (kAxis + 1) % 3, kSecond = (kAxis + 2) % 3;
-    meet(facet, Along<kFirst>{facet.e1[kFirst]}, Along<kSecond>{facet.e2[kSecond]},
-         Along<kAxis>{facet.n[kAxis]}, group);
+  __attribute__((always_inline)) void meet_rectangle(const FewTriangles::Facet& facet,
+                                                     Group& group) {
+    const RectangleTest<N, kAxis> test(facet.rectangle, group.rectangle_rays);
+    const Lanes maybe = group.rays & ~test.misses(group.limit);
+    if (maybe == 0) return;
+    const auto [first, second] = test.sides();
+    meet(facet,
+         {.maybe = maybe,
+          .certain = test.within(),
+          .first = first,
+          .second = second,
+          .with_t = test.with_t(),
+          .t = test.t()},
+         group);
   }
-
-  /// Updates the nearest hits of the rays that hit a facet.
-  template <class Edge1, class Edge2, class Normal>
-  __attribute__((always_inline)) void meet(const FewTriangles::Facet& facet, const Edge1& e1,
-                                           const Edge2& e2, const Normal& n, Group& group) {
-    const F a[3] = {facet.a[0] - group.o[0], facet.a[1] - group.o[1], facet.a[2] - group.o[2]};
-    const Volumes<N, F> volumes(a, e1, e2, n, group.d, facet.largest_edge, facet.edge_product,
-                                group.d_sum, kNoSlack, facet.height_slack);
+  __attribute__((always_inline)) void meet_oblique(const FewTriangles::Facet& facet, Group& group) {
+    const RectangleRays<N>& rays = group.rectangle_rays;
+    const F a[3] = {facet.a[0] - rays.o[0], facet.a[1] - rays.o[1], facet.a[2] - rays.o[2]};
+    const Volumes<N, F> volumes(a, facet.e1, facet.e2, facet.n, rays.d, facet.largest_edge,
+                                facet.edge_product, group.d_sum, kNoSlack, facet.height_slack);
     const F &u = volumes.u, &v = volumes.v, &size = volumes.size, &error = volumes.edge_error;
     const F diagonal = size - (u + v);  // the volume at the edge opposite a
-    const bool is_triangle = facet.second < 0;
-    const F opposite = is_triangle ? diagonal : lesser(F(size - u), F(size - v));
+    const F opposite = facet.second < 0 ? diagonal : lesser(F(size - u), F(size - v));
     const F within = lesser(lesser(u, v), opposite);
     const Lanes maybe =
         group.rays & less_equal<N>(-error, within) & volumes.in_range(group.begin, group.limit);
     if (maybe == 0) return;
-    const Lanes certain = less<N>(error, within) & volumes.with_t();
-    const Interval<F> t = interval(volumes.height, size, volumes.height_error, volumes.size_error);
-    if (is_triangle) {
-      meet(facet.first, {.maybe = maybe, .certain = certain}, t, volumes, group);
-      return;
-    }
-    const Lanes inside = less<N>(error, diagonal), outside = less<N>(diagonal, -error);
-    const Lanes unknown = volumes.without_sign();
-    meet(facet.first, {.maybe = maybe & (~outside | unknown), .certain = certain & inside}, t,
-         volumes, group);
-    meet(facet.second, {.maybe = maybe & (~inside | unknown), .certain = certain & outside}, t,
-         volumes, group);
+    const Lanes with_sign = ~volumes.without_sign();
+    meet(facet,
+         {.maybe = maybe,
+          .certain = less<N>(error, within),
+          .first = less<N>(error, diagonal) & with_sign,
+          .second = less<N>(diagonal, -error) & with_sign,
+          .with_t = volumes.with_t(),
+          .t = interval(volumes.height, size, volumes.height_error, volumes.size_error)},
+         group);
   }
 
-  /// Updates the nearest hits of the rays that may hit a triangle at t.
-  __attribute__((always_inline)) void meet(int number, Candidates rays, const Interval<F>& t,
-                                           const Volumes<N, F>& volumes, Group& group) {
-    if (rays.maybe == 0) return;
-    const FewTriangles::Entry& triangle = tree_.few->entries[number];
-    rays.maybe &= ~equal_to<N>(stream_.omitted_id + first_, triangle.id);
-    if (rays.maybe != 0 && is_open_front(tree_, triangle.id)) pass_fronts(triangle, rays);
-    if (rays.maybe == 0) return;
-    const Lanes nearer = rays.maybe & ~rays.unsure & rays.certain & less<N>(t.hi, group.best_lo) &
-                         less_equal<N>(group.t_min, t.lo);
-    const Lanes farther = rays.certain & less<N>(group.best_hi, t.lo);
-    if (nearer != 0) {
-      group.best_lo = select<N>(nearer, t.lo, group.best_lo);
-      group.best_hi = select<N>(nearer, t.hi, group.best_hi);
-      group.limit = select<N>(nearer, t.hi, group.limit);
-      store_where<N>(nearer, triangle.id, stream_.best_id + first_);
-      if (kAny) group.rays &= ~nearer;
+  /// Updates the nearest hits of the rays that may hit a facet.
+  __attribute__((always_inline)) void meet(const FewTriangles::Facet& facet, const FacetHits& hits,
+                                           Group& group) {
+    const bool is_pair = facet.second >= 0;
+    const std::uint32_t first_id = tree_.few->entries[facet.first].id,
+                        second_id = is_pair ? tree_.few->entries[facet.second].id : first_id;
+    const std::uint32_t* const omitted_id = stream_.omitted_id + first_;
+    Lanes first = hits.maybe & ~hits.second & ~equal_to<N>(omitted_id, first_id);
+    Lanes second = is_pair ? hits.maybe & ~hits.first & ~equal_to<N>(omitted_id, second_id) : 0;
+    if ((first | second) == 0) return;
+    if (tree_.open_fronts == nullptr) {
+      const Lanes certain = certain_of(hits) & (first | second);
+      const Lanes nearer =
+          certain & less<N>(hits.t.hi, group.best_lo) & less_equal<N>(group.t_min, hits.t.lo);
+      const Lanes decided = nearer | (certain & less<N>(group.best_hi, hits.t.lo));
+      if (nearer != 0) {
+        group.best_lo = select<N>(nearer, hits.t.lo, group.best_lo);
+        group.best_hi = select<N>(nearer, hits.t.hi, group.best_hi);
+        group.limit = select<N>(nearer, hits.t.hi, group.limit);
+        store_where<N>(nearer & first, first_id, stream_.best_id + first_);
+        store_where<N>(nearer & second, second_id, stream_.best_id + first_);
+        if (kAny) group.rays &= ~nearer;
+      }
+      first &= ~decided;
+      second &= ~decided;
+      if ((first | second) == 0) return;
     }
-    rays.maybe &= ~nearer & ~farther;
+    meet_slowly(facet.first, first, hits, group);
+    if (second != 0) meet_slowly(facet.second, second, hits, group);
+  }
+
+  /// Returns the lanes that certainly hit one of a facet's triangles, or miss its only one.
+  [[nodiscard]] static Lanes certain_of(const FacetHits& hits) {
+    return hits.certain & hits.with_t & (hits.first | hits.second);
+  }
+
+  /// Updates the nearest hits of the rays that may hit a triangle, each by itself.
+  __attribute__((noinline)) void meet_slowly(int number, Lanes maybe, const FacetHits& hits,
+                                             Group& group) {
+    const FewTriangles::Entry& triangle = tree_.few->entries[number];
+    Candidates rays{.maybe = maybe, .certain = certain_of(hits)};
+    if (rays.maybe != 0 && is_open_front(tree_, triangle.id)) pass_fronts(triangle, rays);
     if (rays.maybe != 0) rays.maybe &= entering(triangle.box, group);
     if (rays.maybe == 0) return;
     store_best(group);
-    decide(triangle, rays, t, volumes.with_t());
+    decide(triangle, rays, hits.t, hits.with_t);
     load_best(group);
     if (kAny) group.rays &= without_hit();
   }
@@ -151,11 +180,12 @@ class FewTrianglesWalk {
   /// Returns the rays that enter a triangle's bounding box before their nearest hits. As in a tree,
   /// few of the rays in a triangle's plane do.
   [[nodiscard]] Lanes entering(const FewTriangles::Box& box, const Group& group) const {
+    const F(&o)[3] = group.rectangle_rays.o;
     F enter = group.begin, leave = group.best_hi;
     for (int axis = 0; axis < 3; ++axis) {
       const F near_factor = load<N>(stream_.near[axis] + first_),
               far_factor = load<N>(stream_.far[axis] + first_);
-      const F zero{}, lo = box.lo[axis] - group.o[axis], hi = box.hi[axis] - group.o[axis];
+      const F zero{}, lo = box.lo[axis] - o[axis], hi = box.hi[axis] - o[axis];
       enter = greater(near_factor * (near_factor < zero ? hi : lo), enter);
       leave = lesser(far_factor * (far_factor < zero ? lo : hi), leave);
     }

@@ -168,6 +168,11 @@ inline Lanes lanes_within(const std::uint32_t* numbers, std::uint32_t first, std
 /// Returns the lanes whose numbers have this value.
 template <int N>
 inline Lanes equal_to(const std::uint32_t* numbers, std::uint32_t value) {
+#if defined(__AVX512VL__)
+  if constexpr (N == 16)
+    return _mm512_cmpeq_epi32_mask(_mm512_loadu_si512(numbers),
+                                   _mm512_set1_epi32(static_cast<int>(value)));
+#endif
   Lanes lanes = 0;
   if constexpr (N % 8 == 0) {
     for (int i = 0; i < N; i += 8) lanes |= lanes_within(numbers + i, value, value) << i;

@@ -41,21 +41,10 @@ inline Float<N> lanes_of(const Float<N>& x) {
 
 constexpr float kNoSlack = -0.0F;  // compilers know that x + -0 is x, but not that x + 0 is x
 
-/// A vector along an axis.
-template <int kAxis>
-struct Along {
-  float length;
-};
-
 template <class A, class B>
 inline auto dot(const A (&a)[3], const B (&b)[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-template <int kAxis, class B>
-inline B dot(const Along<kAxis>& a, const B (&b)[3]) {
-  return a.length * b[kAxis];
-}
-
 /// The signed volumes of N triangles and one ray, or of one triangle and N rays, and bounds of
 /// their errors. RayPart is a vector of lanes if there are N rays, otherwise a scalar.
 template <int N, class RayPart>
@@ -69,10 +58,11 @@ struct Volumes {
   /// vertex, and n is e1 x e2. em is TriangleBlock::largest_edge, and m is
   /// TriangleBlock::edge_product. `slack` is added to |a| (see InnerRay), and height_slack to the
   /// error of `height`. Always inlined, like BlockTest::run.
-  template <class Edge1, class Edge2, class Normal>
+  template <class TrianglePart>
   __attribute__((always_inline))
-  Volumes(const F (&a)[3], const Edge1& e1, const Edge2& e2, const Normal& n, const RayPart (&d)[3],
-          float em, float m, const RayPart& d_sum, float slack, float height_slack) {
+  Volumes(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
+          const TrianglePart (&n)[3], const RayPart (&d)[3], float em, float m,
+          const RayPart& d_sum, float slack, float height_slack) {
     const F r[3] = {a[1] * d[2] - a[2] * d[1], a[2] * d[0] - a[0] * d[2],
                     a[0] * d[1] - a[1] * d[0]};
     const F signed_size = dot(n, d);
