@@ -10,8 +10,10 @@
 #include "support/effort.hpp"
 #include "support/reproduction.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -42,6 +44,28 @@ Case<Triangle> wall_case(Random& random) {
   return {{.o = o, .t_min = 0, .d = (target - o) * random.power_of_two(-3, 3)}, t};
 }
 
+/// Checks that rays that leave the points to either side have the same origins whether or not the
+/// kernel has prepared those of one side.
+void check_origins(const SpawnKernels& kernels, HitPointLanes& points) {
+  constexpr Lanes kAll = (Lanes{1} << kSpawnLanes) - 1;
+  const auto prepared = points;
+  for (const float sign : {1.0F, -1.0F}) {
+    OriginLanes lanes{}, expected{};
+    for (int k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < kSpawnLanes; ++i)
+        lanes.direction[k][i] = expected.direction[k][i] = sign * points.d[k][i];
+    }
+    std::ranges::fill(points.side, 0.0F);
+    const Lanes sure = kernels.find_origins(points, expected, kAll);
+    ASSERT_EQ(kernels.find_origins(prepared, lanes, kAll), sure);
+    if (sure == kAll) {
+      ASSERT_EQ(std::memcmp(lanes.origin, expected.origin, sizeof lanes.origin), 0);
+    }
+    const bool is_back = sign < 0;
+    ASSERT_EQ(is_back && prepared.side[0] != 0, is_back && sure == kAll);
+  }
+}
+
 /// Returns the kernel's hit point if it is certain, otherwise nothing. All lanes must agree.
 std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const Triangle& t) {
   HitPointLanes lanes{};
@@ -62,7 +86,9 @@ std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const 
     return Vec3(lanes.p[0][i], lanes.p[1][i], lanes.p[2][i]);
   };
   for (std::size_t i = 1; i < kSpawnLanes; ++i) EXPECT_EQ(point(i), point(0)) << i;
-  return point(0);
+  const std::optional<Vec3> result = point(0);
+  if (result) check_origins(kernels, lanes);
+  return result;
 }
 
 struct PointCount {

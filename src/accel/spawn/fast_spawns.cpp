@@ -167,7 +167,7 @@ void FastSpawns::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes,
 Lanes FastSpawns::leave(Lanes wanted, OriginLanes& lanes) const {
   const Lanes open = wanted & alone_;
   Lanes found = open & triangles_;
-  if (found != 0) found &= spawn_kernels_.find_origins(*points_, lanes);
+  if (found != 0) found = spawn_kernels_.find_origins(*points_, lanes, found);
   for (Lanes others = open & ~triangles_; others != 0; others &= others - 1) {
     const auto hit = static_cast<std::size_t>(std::countr_zero(others));
     if (const auto origin = others_[hit]->origin(vector_of(lanes.direction, hit))) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "accel/spawn/kernels/double_lanes.hpp"
+#include "accel/spawn/kernels/find_origins.hpp"
 
 namespace microtrace {
 namespace {
@@ -48,6 +49,28 @@ struct CoordinateInPlane {
   }
 };
 
+/// Returns the lanes in which the normal is along the axis k.
+template <int N>
+inline DoubleMask<N> is_along(const CrossProducts<N>& normal, int k) {
+  return (normal.permanent.v[(k + 1) % 3] == 0) & (normal.permanent.v[(k + 2) % 3] == 0);
+}
+
+/// Returns the lanes whose vertices and rays are within the filters' limit. Compares bits, which
+/// have the order of the numbers; those of NaN are the greatest.
+template <int N>
+inline DoubleMask<N> filterable_lanes(const HitPointLanes& lanes, int i) {
+  Int<N> greatest{};
+  const SpawnFloats* const all_vectors[] = {lanes.a, lanes.b, lanes.c, lanes.o, lanes.d};
+  for (const SpawnFloats* const vectors : all_vectors) {
+    for (int k = 0; k < 3; ++k) {
+      const auto bits = reinterpreted<Int<N>>(magnitude(load<N>(vectors[k] + i)));
+      greatest = bits > greatest ? bits : greatest;
+    }
+  }
+  const auto most = reinterpreted<Int<N>>(all<N>(kGreatestCoordinate));
+  return __builtin_convertvector(greatest <= most, DoubleMask<N>);
+}
+
 /// Computes the hit points of N lanes starting at lane i, as TrianglePlaneFilter and
 /// rounded_point() do.
 template <int N>
@@ -55,8 +78,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   using D = Double<N>;
   const auto a = widened3<N>(lanes.a, i), b = widened3<N>(lanes.b, i), c = widened3<N>(lanes.c, i);
   const auto o = widened3<N>(lanes.o, i), d = widened3<N>(lanes.d, i);
-  auto is_sure =
-      filterable<N>(a) & filterable<N>(b) & filterable<N>(c) & filterable<N>(o) & filterable<N>(d);
+  DoubleMask<N> is_sure = filterable_lanes<N>(lanes, i);
   const auto normal = CrossProducts<N>::of(b - a, c - a);
   const auto height = normal.along(a - o, kHeightRoundings),
              slope = normal.along(d, kSlopeRoundings);
@@ -84,6 +106,10 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   for (int k = 0; k < 3; ++k) {
     D below = x.v[k] - x_error.v[k], above = x.v[k] + x_error.v[k];
     D least = to_floats<N>(below), greatest = to_floats<N>(above);
+    // On an axis-aligned plane, the formula below would give the plane's coordinate.
+    const DoubleMask<N> is_in_plane = is_along<N>(normal, k);
+    least = is_in_plane ? a.v[k] : least;
+    greatest = is_in_plane ? a.v[k] : greatest;
     if (true_double_lanes<N>(least != greatest) != 0) {
       const CoordinateInPlane<N> in_plane(normal, x, x_error, a, k);
       // These bounds may be NaN; `greater` and `lesser` then return the other bound.
@@ -113,8 +139,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
     const D infinite = D{} + __builtin_inf(), margin = 2 * reach.v[k];
     narrowed<N>(is_sure ? p.v[k] - margin : infinite, lanes.lo[k] + i);
     narrowed<N>(is_sure ? p.v[k] + margin : -infinite, lanes.hi[k] + i);
-    const auto is_normal =
-        (normal.permanent.v[(k + 1) % 3] == 0) & (normal.permanent.v[(k + 2) % 3] == 0);
+    const DoubleMask<N> is_normal = is_along<N>(normal, k);
     plane_axis = is_normal ? D{} + k : plane_axis;
     plane_at = is_normal ? a.v[k] : plane_at;
   }
@@ -123,6 +148,10 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   narrowed<N>(plane_at, lanes.plane_at + i);
   narrowed<N>(axis, lanes.axis + i);
   narrowed<N>(is_sure ? D{} + 1 : D{}, lanes.is_sure + i);
+  const DoubleMask<N> to_front = slope.value < 0;
+  const DoubleMask<N> has_origin = move_off<N>(normal, a, axis, to_front, is_sure, p);
+  for (int k = 0; k < 3; ++k) narrowed<N>(p.v[k], lanes.origin[k] + i);
+  narrowed<N>(has_origin ? (to_front ? D{} + 1 : D{} - 1) : D{}, lanes.side + i);
 }
 
 template <int N>

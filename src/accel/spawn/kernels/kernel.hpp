@@ -37,6 +37,9 @@ struct alignas(64) HitPointLanes {
   SpawnFloats lo[3], hi[3];      ///< a box around p +- reach; empty unless is_sure
   SpawnFloats plane_axis;        ///< the axis to which the normal is parallel, or -1
   SpawnFloats plane_at;          ///< the triangle's coordinate on this axis
+  /// The side from which the ray arrives, 1 for the front and -1 for the back, and the origin of
+  /// rays that leave to this side; 0 if it is not certain.
+  SpawnFloats side, origin[3];
 };
 
 /// The directions and origins of rays that leave the points of HitPointLanes, one ray per point.
@@ -47,8 +50,9 @@ struct alignas(64) OriginLanes {
 
 struct SpawnKernels {
   void (*find_hit_points)(HitPointLanes& lanes);
-  /// Returns the lanes whose origins are certain, one bit for each.
-  std::uint32_t (*find_origins)(const HitPointLanes& points, OriginLanes& lanes);
+  /// Returns the wanted lanes whose origins are certain, one bit for each.
+  std::uint32_t (*find_origins)(const HitPointLanes& points, OriginLanes& lanes,
+                                std::uint32_t wanted);
 };
 
 extern const SpawnKernels kPortableSpawn;
