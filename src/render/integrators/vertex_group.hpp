@@ -36,7 +36,8 @@ struct alignas(64) VertexGroup {
 
   Lanes vertices = 0;                                  ///< lanes with a vertex
   Lanes mapped = 0;                                    ///< lanes with a normal map
-  std::array<bsdf::Features, kShadingLanes> features;  ///< of the lanes with a vertex
+  Lanes plain = 0;                                     ///< lanes of vertices without features
+  std::array<bsdf::Features, kShadingLanes> features;  ///< of the other lanes with a vertex
 };
 
 /// Sets the normal map of a lane and the tangents of its triangle, but not their weights.

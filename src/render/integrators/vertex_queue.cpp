@@ -188,18 +188,8 @@ void VertexQueues::begin(const Lighting& lighting, const PathGuide* guide) {
 
 void VertexQueues::add(const WaveStep& step, const PathColumns& paths, std::size_t first,
                        OutgoingRays& outgoing) {
-  for (Lanes rest = group_->vertices; rest != 0;) {
-    const auto some = static_cast<std::size_t>(std::countr_zero(rest));
-    const bsdf::Features& features = group_->features[some];
-    const int index = features.index();
-    Lanes lanes = 0;  // those with the same features
-    for (Lanes others = rest; others != 0; others &= others - 1) {
-      const int lane = std::countr_zero(others);
-      if (group_->features[static_cast<std::size_t>(lane)].index() == index)
-        lanes |= Lanes{1} << lane;
-    }
-    rest &= ~lanes;
-    std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(index)];
+  const auto add = [&](const bsdf::Features& features, Lanes lanes) {
+    std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(features.index())];
     if (!queue) {
       queue = std::make_unique<VertexQueue>(features, kernels_);
       queue->begin(*lighting_, guide_);
@@ -208,6 +198,19 @@ void VertexQueues::add(const WaveStep& step, const PathColumns& paths, std::size
       lanes = queue->add(lanes, {.group = *group_, .paths = paths, .first = first});
       if (queue->is_full()) queue->finish(step, *lighting_, outgoing);
     }
+  };
+  if (const Lanes plain = group_->vertices & group_->plain; plain != 0) add({}, plain);
+  for (Lanes rest = group_->vertices & ~group_->plain; rest != 0;) {
+    const auto some = static_cast<std::size_t>(std::countr_zero(rest));
+    const bsdf::Features& features = group_->features[some];
+    Lanes lanes = 0;  // those with the same features
+    for (Lanes others = rest; others != 0; others &= others - 1) {
+      const int lane = std::countr_zero(others);
+      if (group_->features[static_cast<std::size_t>(lane)].index() == features.index())
+        lanes |= Lanes{1} << lane;
+    }
+    rest &= ~lanes;
+    add(features, lanes);
   }
 }
 

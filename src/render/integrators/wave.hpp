@@ -55,6 +55,15 @@ class Wave {
   [[nodiscard]] Lanes meet_surfaces(std::size_t first);
   /// Sets the footprints of the camera paths in the group from `first` on.
   void widen(std::size_t first);
+  /// The lanes from `first` on whose paths have their maximum length.
+  [[nodiscard]] Lanes last_paths(std::size_t first) const;
+  struct MetSurfaces {
+    Lanes simple = 0;  ///< vertices without textures that need no further tests
+    Lanes ended = 0;   ///< paths that end at surfaces that emit nothing
+  };
+  /// Sets the surfaces of the group's lanes with flat triangles. Leaves out those that need further
+  /// tests.
+  [[nodiscard]] MetSurfaces add_flat(std::size_t first);
   /// Sets the vertices of the group's lanes whose surfaces need no further tests. Returns these
   /// lanes, and those of paths that end at surfaces that emit nothing.
   [[nodiscard]] Lanes add_simple(std::size_t first);

@@ -62,6 +62,37 @@ void Wave::widen(std::size_t first) {
   }
 }
 
+Lanes Wave::last_paths(std::size_t first) const {
+  if (media_.empty()) return step_.depth >= options_.max_depth ? kAllLanes<kShadingLanes> : 0;
+  Lanes lanes = 0;
+  for (std::size_t k = 0; k < kShadingLanes; ++k) lanes |= Lanes{is_last(first + k)} << k;
+  return lanes;
+}
+
+Wave::MetSurfaces Wave::add_flat(std::size_t first) {
+  VertexGroup& group = vertices_.group();
+  const FlatHits& flat = group.hits.flat_hits;
+  Lanes lanes = group.hits.flat & group.hits.sure & flat.simple;
+  if (lanes == 0) return {};
+  shading_->load_surfaces(*kernels_, group.hits, group.surface);
+  group.surface_of.fill(nullptr);
+  Lanes behind = 0;
+  for (int lane = 0; lane < kShadingLanes; ++lane)
+    behind |= Lanes{group.hits.lanes.from_behind[lane] != 0} << lane;
+  lanes &= ~behind | flat.with_back;
+  const auto keep_if = [&](Lanes tested, const auto& condition) {
+    for (Lanes rest = lanes & tested; rest != 0; rest &= rest - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+      if (!condition(first + k)) lanes &= ~(Lanes{1} << k);
+    }
+  };
+  if (looks_behind())
+    keep_if(~behind & flat.with_open_back, [&](std::size_t i) { return !may_get_light(i); });
+  if (!media_.empty()) keep_if(lanes, [&](std::size_t i) { return paths_->media[i] == 0; });
+  const Lanes last = last_paths(first);
+  return {.simple = lanes & ~last, .ended = step_.depth > 1 ? lanes & last : 0};
+}
+
 Lanes Wave::add_simple(std::size_t first) {
   VertexGroup& group = vertices_.group();
   const PathColumns& paths = *paths_;
@@ -70,14 +101,14 @@ Lanes Wave::add_simple(std::size_t first) {
   for (int lane = 0; lane < kShadingLanes; ++lane) {
     const std::size_t i = first + static_cast<std::size_t>(lane);
     group.width[lane] = paths.begin[i] + paths.spread[i] * hits.distance[lane];
+    group.side[lane] = hits.from_behind[lane] != 0 ? -1.0F : 1.0F;
     group.on_mesh[lane] = 1;
     group.normals.is_mapped[lane] = group.coat_normals.is_mapped[lane] = 0;
-    for (auto& weights : group.through_weight) weights[lane] = 1;
-    group.media[lane] = 0;
-    group.channel[lane] = paths.channel[i];
   }
-  Lanes simple = 0, varying = 0, ended = 0;
-  for (Lanes rest = group.hits.sure; rest != 0; rest &= rest - 1) {
+  auto [simple, ended] = add_flat(first);
+  group.plain = simple;
+  Lanes varying = 0;
+  for (Lanes rest = group.hits.sure & ~group.hits.flat; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto k = static_cast<std::size_t>(lane);
     const TexturedMaterial& look = *group.hits.looks[k];
@@ -93,9 +124,16 @@ Lanes Wave::add_simple(std::size_t first) {
       continue;
     }
     simple |= bit;
-    group.side[lane] = is_front ? 1.0F : -1.0F;
     const BsdfInput& input = *look.constant_but_textures;
-    group.features[k] = input.features;
+    const bool is_plain = input.features.index() == 0;
+    if (is_plain) {
+      group.plain |= bit;
+    } else {
+      group.features[k] = input.features;
+      for (auto& weights : group.through_weight) weights[lane] = 1;
+      group.media[lane] = 0;
+      group.channel[lane] = paths.channel[first + k];
+    }
     const bool has_colors = !group.hits.meshes[k]->colors.empty();
     if (look.varies || has_colors) varying |= bit;
     // Vertex colors replace the base color, which textures replace each time.
@@ -103,8 +141,7 @@ Lanes Wave::add_simple(std::size_t first) {
         std::exchange(group.surface_of[k], has_colors ? nullptr : &look);
     if (known == &look) continue;
     put_surface(group.surface, lane, input.parameters);
-    if (input.features.index() != 0)
-      put_extensions(group.surface, lane, input.parameters, input.layers);
+    if (!is_plain) put_extensions(group.surface, lane, input.parameters, input.layers);
   }
   if (varying != 0) simple = (simple & ~varying) | add_varying(varying);
   if (step_.depth == 1) {
@@ -203,12 +240,16 @@ void Wave::put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoin
       media_.cross(Shading::enclosed_medium(point), point.at.front, media_.at(paths_->media[i]));
   const BsdfInput& input = shading_->bsdf_input(point, channel, beyond.outside, varying_);
   group.vertices |= Lanes{1} << lane;
-  group.features[k] = input.features;
   group.id[lane] = hit.id;
   put_point(group, lane, point);
   group.surface_of[k] = nullptr;
   put_surface(group.surface, lane, input.parameters);
-  if (input.features.index() == 0) return;
+  if (input.features.index() == 0) {
+    group.plain |= Lanes{1} << lane;
+    return;
+  }
+  group.plain &= ~(Lanes{1} << lane);
+  group.features[k] = input.features;
   put_extensions(group.surface, lane, input.parameters, input.layers);
   group.channel[lane] = static_cast<std::uint32_t>(channel);
   Vec3 through(1);

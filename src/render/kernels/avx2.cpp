@@ -5,6 +5,7 @@
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/finish_guided.hpp"
+#include "render/kernels/flat_points.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_environment.hpp"
 #include "render/kernels/sample_positions.hpp"
@@ -22,6 +23,8 @@ const ShadingKernels kAvx2Shading{"avx2",
                                   sample_positions<8>,
                                   sum_samples<kDoubleLanes<8>>,
                                   find_points<8, kShadingLanes>,
+                                  find_flat_points<8>,
+                                  load_surfaces<8>,
                                   find_normals<8>,
                                   choose_lights<8, kShadingLanes>,
                                   sample_triangles<8, kShadingLanes>,

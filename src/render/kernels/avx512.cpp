@@ -5,6 +5,7 @@
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/finish_guided.hpp"
+#include "render/kernels/flat_points.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_environment.hpp"
 #include "render/kernels/sample_positions.hpp"
@@ -22,6 +23,8 @@ const ShadingKernels kAvx512Shading{"avx512",
                                     sample_positions<16>,
                                     sum_samples<kDoubleLanes<16>>,
                                     find_points<16, kShadingLanes>,
+                                    find_flat_points<16>,
+                                    load_surfaces<16>,
                                     find_normals<16>,
                                     choose_lights<16, kShadingLanes>,
                                     sample_triangles<16, kShadingLanes>,

@@ -6,36 +6,64 @@
 
 namespace microtrace {
 
-/// Computes the points of the N paths that start at lane i. Intersects the rays with the planes of
-/// the triangles in float64.
+/// The points where N rays, which start at lane i, meet the planes of their triangles in float64.
+template <int N>
+struct PlanePoints {
+  using D = Double<N>;
+  using V = Doubles3<N>;
+  V d, a, e1, e2, n, p;
+  D square, slope, t;
+
+  template <int width>
+  PlanePoints(const HitArrays<width>& hits, int i)
+      : d(widened3<N>(hits.d, i)),
+        a(widened3<N>(hits.corners[0], i)),
+        e1(widened3<N>(hits.corners[1], i) - a),
+        e2(widened3<N>(hits.corners[2], i) - a),
+        n(cross(e1, e2)),
+        square(dot(n, n)),
+        slope(dot(n, d)) {
+    const V o = widened3<N>(hits.o, i);
+    t = dot(a - o, n) / slope;
+    p = o + t * d;
+  }
+
+  /// Each term of `slope` has at most six roundings and is at most the product of the three sums.
+  /// If the triangle is not nearly edge-on, the relative error of `slope` is therefore below 2^-26.
+  /// The test fails for triangles without area.
+  [[nodiscard]] auto are_sure() const {
+    const D terms = magnitudes_sum(e1) * magnitudes_sum(e2) * magnitudes_sum(d);
+    return (square > 0) & (magnitude(D(slope)) > 0x1p-24 * terms);
+  }
+
+  /// Calls put(values, array) for the results that all hits have.
+  template <int width, class Put>
+  void put_common(const Put& put, HitArrays<width>& hits) const {
+    const D zero{}, one = zero + 1;
+    put(are_sure() ? one : zero, hits.is_sure);
+    put(p.x, hits.p[0]);
+    put(p.y, hits.p[1]);
+    put(p.z, hits.p[2]);
+    put(slope > 0 ? one : zero, hits.from_behind);
+    put(t * square_root<N>(dot(d, d)), hits.distance);
+  }
+};
+
+/// Computes the points of the N paths that start at lane i.
 template <int N, int width>
 void intersect_planes(HitArrays<width>& hits, int i) {
   using D = Double<N>;
   using V = Doubles3<N>;
-  const D zero{}, one = zero + 1;
-  const V o = widened3<N>(hits.o, i), d = widened3<N>(hits.d, i);
-  const V a = widened3<N>(hits.corners[0], i);
-  const V e1 = widened3<N>(hits.corners[1], i) - a, e2 = widened3<N>(hits.corners[2], i) - a;
-  const V n = cross(e1, e2);
-  const D square = dot(n, n), slope = dot(n, d);
-  const D t = dot(a - o, n) / slope;
-  // Each term of `slope` has at most six roundings and is at most the product of the three sums. If
-  // the triangle is not nearly edge-on, the relative error of `slope` is therefore below 2^-26. The
-  // test fails for triangles without area.
-  const D terms = magnitudes_sum(e1) * magnitudes_sum(e2) * magnitudes_sum(d);
-  const auto is_sure = (square > 0) & (magnitude(D(slope)) > 0x1p-24 * terms);
-  narrowed<N>(is_sure ? one : zero, hits.is_sure + i);
-  const V p = o + t * d, from_a = p - a;
-  const D inverse = 1 / square;
-  const D v = larger_of(D(dot(cross(from_a, e2), n) * inverse), zero);
-  const D w = larger_of(D(dot(cross(e1, from_a), n) * inverse), zero);
+  const PlanePoints<N> at(hits, i);
+  at.put_common([&](const D& x, float* to) { narrowed<N>(x, to + i); }, hits);
+  const D zero{}, inverse = 1 / at.square;
+  const V from_a = at.p - at.a;
+  const D v = larger_of(D(dot(cross(from_a, at.e2), at.n) * inverse), zero);
+  const D w = larger_of(D(dot(cross(at.e1, from_a), at.n) * inverse), zero);
   const D u = larger_of(D(1 - v - w), zero), sum = u + v + w;
-  narrowed3<N>(p, hits.p, i);
   narrowed3<N>(V{u, v, w} * (1 / sum), hits.weights, i);
-  narrowed<N>(slope > 0 ? one : zero, hits.from_behind + i);
-  narrowed<N>(t * square_root<N>(dot(d, d)), hits.distance + i);
-  const D length = square_root<N>(square);
-  narrowed3<N>(n * (length * inverse), hits.n, i);
+  const D length = square_root<N>(at.square);
+  narrowed3<N>(at.n * (length * inverse), hits.n, i);
   narrowed<N>(length, hits.area + i);
 }
 

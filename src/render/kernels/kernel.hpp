@@ -8,6 +8,7 @@
 #include "render/bsdf/features.hpp"
 #include "render/kernels/environment_lanes.hpp"
 #include "render/kernels/film_lanes.hpp"
+#include "render/kernels/flat_lanes.hpp"
 #include "render/kernels/guide_lanes.hpp"
 #include "render/kernels/light_lanes.hpp"
 #include "render/kernels/surface_lanes.hpp"
@@ -122,6 +123,10 @@ struct ShadingKernels {
   std::uint32_t (*sum_samples)(const SumSetup& setup, const float* samples, std::size_t stride,
                                TermSums& sums, std::size_t pixel);
   void (*find_points)(HitLanes& lanes);
+  /// See flat_points.hpp.
+  void (*find_flat_points)(const FlatTriangle* triangles, FlatHits& flat, HitLanes& hits);
+  void (*load_surfaces)(const FlatSurface* table, const std::uint32_t (&which)[kShadingLanes],
+                        SurfaceLanes& to);
   void (*find_normals)(const NormalLanes& points, NormalMapLanes& map);
   void (*choose_lights)(const LightChoiceSetup& setup, LightChoices<kShadingLanes>& lanes);
   void (*sample_triangles)(const TriangleLight* triangles,

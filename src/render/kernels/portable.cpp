@@ -5,6 +5,7 @@
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/finish_guided.hpp"
+#include "render/kernels/flat_points.hpp"
 #include "render/kernels/random_pairs.hpp"
 #include "render/kernels/sample_environment.hpp"
 #include "render/kernels/sample_positions.hpp"
@@ -22,6 +23,8 @@ const ShadingKernels kPortableShading{"portable",
                                       sample_positions<4>,
                                       sum_samples<kDoubleLanes<4>>,
                                       find_points<4, kShadingLanes>,
+                                      find_flat_points<4>,
+                                      load_surfaces<4>,
                                       find_normals<4>,
                                       choose_lights<4, kShadingLanes>,
                                       sample_triangles<4, kShadingLanes>,

@@ -12,6 +12,8 @@ namespace microtrace {
 
 struct HitGroup {
   HitLanes lanes{};  ///< valid for hits of mesh triangles that are in `sure`
+  FlatHits flat_hits{};
+  Lanes flat = 0;  ///< lanes with flat triangles, for which the arrays below are not set
   std::array<const TexturedMaterial*, kShadingLanes> looks{};
   std::array<const Mesh*, kShadingLanes> meshes{};  ///< null for other primitives
   std::array<std::array<std::uint32_t, 3>, kShadingLanes> corners{};

@@ -11,9 +11,10 @@ namespace microtrace {
 // into the fastest caches.
 void Shading::find_points(const ShadingKernels& kernels,
                           std::span<const PrimitiveId, kShadingLanes> ids, HitGroup& group) const {
+  group.flat = flat_triangles_.find(ids, group.hit, group.flat_hits);
   Lanes on_meshes = 0;
   std::array<std::size_t, kShadingLanes> triangles;
-  for (Lanes rest = group.hit; rest != 0; rest &= rest - 1) {
+  for (Lanes rest = group.hit & ~group.flat; rest != 0; rest &= rest - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
     const Entry& entry = entries_[primitives_.object_index(ids[i])];
     group.looks[i] = &looks_[entry.look];
@@ -40,23 +41,35 @@ void Shading::find_points(const ShadingKernels& kernels,
     group.with_attributes =
         has_attributes ? group.with_attributes | bit : group.with_attributes & ~bit;
   }
+  if ((on_meshes | group.flat) == 0) {
+    group.sure = 0;
+    return;
+  }
+  if (on_meshes != 0) kernels.find_points(group.lanes);
+  if (group.flat != 0)
+    kernels.find_flat_points(flat_triangles_.triangles(), group.flat_hits, group.lanes);
   group.sure = 0;
-  if (on_meshes == 0) return;
-  kernels.find_points(group.lanes);
   for (int lane = 0; lane < kShadingLanes; ++lane)
     group.sure |= Lanes{group.lanes.is_sure[lane] != 0} << lane;
-  group.sure &= on_meshes;
+  group.sure &= on_meshes | group.flat;
+}
+
+void Shading::load_surfaces(const ShadingKernels& kernels, const HitGroup& group,
+                            SurfaceLanes& surface) const {
+  kernels.load_surfaces(flat_triangles_.surfaces(), group.flat_hits.surfaces, surface);
 }
 
 ShadingPoint Shading::point(const HitGroup& group, int lane, const Ray& ray, const Hit& hit) const {
   const auto i = static_cast<std::size_t>(lane);
-  ShadingPoint point{.at = {}, .look = group.looks[i]};
+  const bool is_flat = (group.flat >> lane & 1U) != 0;
+  const Entry& entry = entries_[primitives_.object_index(hit.id)];
+  ShadingPoint point{.at = {}, .look = &looks_[entry.look]};
   if ((group.sure >> lane & 1U) == 0) {
     point.at = rounded(interact(primitives_, ray, hit), ray, hit);
     return point;
   }
-  point.at.mesh = group.meshes[i];
-  point.at.corners = group.corners[i];
+  point.at.mesh = entry.mesh;
+  point.at.corners = is_flat ? entry.mesh->corners(hit.id - entry.first_id) : group.corners[i];
   get_sure_point(group.lanes, lane, point.at);
   return point;
 }

@@ -126,6 +126,11 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     all_cover_ &= looks_[entries_.back().look].is_opaque;
     has_open_backs_ |= looks_[entries_.back().look].has_open_back;
   }
+  for (const TexturedMaterial& look : looks_) flat_triangles_.add_surface(look);
+  for (const Entry& entry : entries_) {
+    if (entry.mesh != nullptr)
+      flat_triangles_.add_mesh(*entry.mesh, entry.first_id, entry.look, looks_[entry.look]);
+  }
   if (has_open_backs_) find_open_fronts();
 }
 

@@ -4,6 +4,7 @@
 #include "render/bsdf/parameters.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/media/medium.hpp"
+#include "render/shading/flat_triangles.hpp"
 #include "render/shading/surface_point.hpp"
 #include "render/textures/texture_map.hpp"
 #include "scene/material_textures.hpp"
@@ -141,6 +142,9 @@ class Shading {
   /// group.lanes.
   void find_points(const ShadingKernels& kernels, std::span<const PrimitiveId, kShadingLanes> ids,
                    HitGroup& group) const;
+  /// Sets the surfaces of group.flat in their lanes, and any values in the other lanes.
+  void load_surfaces(const ShadingKernels& kernels, const HitGroup& group,
+                     SurfaceLanes& surface) const;
   /// The shading point in a lane of a group, for which find_points() was called. Its width is 0.
   [[nodiscard]] ShadingPoint point(const HitGroup& group, int lane, const Ray& ray,
                                    const Hit& hit) const;
@@ -257,6 +261,7 @@ class Shading {
   // one-sided.
   std::vector<TexturedMaterial> looks_;
   std::vector<Entry> entries_;  // by object
+  FlatTriangles flat_triangles_;
   std::vector<std::uint32_t> open_fronts_;
   bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false;
 };

@@ -63,6 +63,86 @@ TEST_P(ShadingKernelsTest, PointsHaveTheBitsOfOneLane) {
   EXPECT_GT(asked, kRounds * kShadingLanes * 0.95);
 }
 
+TEST_P(ShadingKernelsTest, FlatTrianglesHaveTheBitsOfOtherTriangles) {
+  LaneRandom random(8);
+  for (int round = 0; round < kRounds; ++round) {
+    std::array<FlatTriangle, kShadingLanes + 1> table{};
+    FlatHits flat{};
+    HitLanes lanes{};
+    for (int i = 0; i < kShadingLanes; ++i) {
+      FlatTriangle& row = table[static_cast<std::size_t>(kShadingLanes - i)];
+      const Vec3 a = random.vector(), b = random.vector(), c = random.vector();
+      const float u = random.number(), v = (1 - u) * random.number();
+      put(lanes.corners[0], i, a);
+      put(lanes.corners[1], i, b);
+      put(lanes.corners[2], i, c);
+      put(lanes.o, i, random.vector());
+      put(lanes.d, i, a + u * (b - a) + v * (c - a) - got(lanes.o, i));
+      flat.rows[i] = random.number() < 0.2F ? 0 : static_cast<std::uint32_t>(kShadingLanes - i);
+      row.surface = static_cast<std::uint32_t>(i);
+      row.kind = static_cast<std::uint32_t>(i % 8);
+      row.is_flat = 1;
+    }
+    HitLanes expected = lanes;
+    find_points<1>(expected);
+    for (int i = 0; i < kShadingLanes; ++i) {
+      FlatTriangle& row = table[static_cast<std::size_t>(kShadingLanes - i)];
+      for (int axis = 0; axis < 3; ++axis) {
+        row.n[axis] = expected.n[axis][i];
+        for (int corner = 0; corner < 3; ++corner)
+          row.corners[corner][axis] = lanes.corners[corner][axis][i];
+      }
+    }
+    const HitLanes before = lanes;
+    for (auto& corner : lanes.corners) put(corner, 1, Vec3(7));
+    GetParam()->find_flat_points(table.data(), flat, lanes);
+    for (int i = 0; i < kShadingLanes; ++i) {
+      const bool is_flat = flat.rows[i] != 0;
+      const HitLanes& right = is_flat ? expected : before;
+      expect_bits(lanes.is_sure[i], right.is_sure[i], "is_sure");
+      expect_bits(lanes.p, right.p, i, "p");
+      expect_bits(lanes.n, right.n, i, "n");
+      expect_bits(lanes.ns, right.ns, i, "ns");
+      expect_bits(lanes.distance[i], right.distance[i], "distance");
+      expect_bits(lanes.from_behind[i], right.from_behind[i], "from_behind");
+      if (!is_flat) continue;
+      for (int corner = 0; corner < 3; ++corner)
+        expect_bits(lanes.corners[corner], right.corners[corner], i, "corners");
+      EXPECT_EQ(flat.surfaces[i], static_cast<std::uint32_t>(i));
+      EXPECT_EQ(flat.simple >> i & 1U, i & 1U);
+      EXPECT_EQ(flat.with_back >> i & 1U, i >> 1 & 1U);
+      EXPECT_EQ(flat.with_open_back >> i & 1U, i >> 2 & 1U);
+    }
+  }
+}
+
+TEST_P(ShadingKernelsTest, SurfacesAreLoaded) {
+  LaneRandom random(9);
+  std::array<FlatSurface, 5> table{};
+  for (FlatSurface& row : table) {
+    row = {.base_color = {random.number(), random.number(), random.number()},
+           .metallic = random.number(),
+           .roughness = random.number(),
+           .f0 = {random.number(), random.number(), random.number()},
+           .f90 = random.number(),
+           .unused = {}};
+  }
+  std::uint32_t which[kShadingLanes];
+  for (std::uint32_t i = 0; i < kShadingLanes; ++i) which[i] = i * 7 % 5;
+  SurfaceLanes lanes{};
+  GetParam()->load_surfaces(table.data(), which, lanes);
+  for (std::size_t i = 0; i < kShadingLanes; ++i) {
+    const FlatSurface& row = table[which[i]];
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(lanes.base_color[k][i], row.base_color[k]);
+      EXPECT_EQ(lanes.f0[k][i], row.f0[k]);
+    }
+    EXPECT_EQ(lanes.metallic[i], row.metallic);
+    EXPECT_EQ(lanes.roughness[i], row.roughness);
+    EXPECT_EQ(lanes.f90[i], row.f90);
+  }
+}
+
 TEST_P(ShadingKernelsTest, UncertainPointsAreMarked) {
   HitLanes lanes{};  // all triangles are degenerate
   GetParam()->find_points(lanes);
