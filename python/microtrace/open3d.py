@@ -65,7 +65,7 @@ class RaycastingScene:
         triangles: Any = None,
         mesh: Any = None,
     ) -> int:
-        """Adds triangles and returns the id of their geometry.
+        """Adds a copy of triangles and returns the id of their geometry.
 
         Args:
             vertex_positions: (V, 3) numbers, or a mesh of Open3D.
@@ -80,7 +80,8 @@ class RaycastingScene:
             mesh = positions
         if mesh is not None:
             positions, indices = _arrays_of(mesh)
-        self._scene.add_mesh(_numbers(positions), _numbers(indices))
+        # The scene reads arrays later, when the caller may have changed them.
+        self._scene.add_mesh(np.array(_numbers(positions)), np.array(_numbers(indices)))
         self._prepared_scene = None
         return len(self._scene.objects) - 1
 

@@ -114,6 +114,22 @@ def test_tensors_of_others():
     assert scene.count_intersections(Foreign(RAYS)).tolist() == [2, 1, 0]
 
 
+def test_added_triangles_are_copies():
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+    faces = np.array([[0, 1, 2]], np.uint32)
+    scene = RaycastingScene()
+    for _ in range(3):
+        scene.add_triangles(corners, faces)
+        corners += np.float32([2, 0, 0])
+    faces[:] = 0
+    rays = [[x + 0.25, 0.25, 1, 0, 0, -1] for x in (0, 2, 4, 6)]
+    ids = scene.cast_rays(rays)["geometry_ids"].tolist()
+    assert ids == [0, 1, 2, RaycastingScene.INVALID_ID]
+    corners[:] = 0
+    normals = scene.compute_closest_points([[0.25, 0.25, 1]])["primitive_normals"]
+    assert normals.tolist() == [[0, 0, 1]]
+
+
 def test_same_as_the_scene():
     vertices, faces = icosphere(3)
     scene = RaycastingScene()
