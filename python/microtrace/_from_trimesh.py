@@ -51,12 +51,21 @@ def _add(scene: Scene, mesh: Any, name: str, transform: Any) -> None:
 
 def _loaded_normals(mesh: Any) -> Any:
     """Returns the normals that were loaded with the mesh, not those that trimesh computes on
-    demand."""
+    demand. trimesh keeps both in the same place."""
     cache = getattr(mesh, "_cache", None)
     if cache is None:
         return getattr(mesh, "vertex_normals", None)
-    normals = cache.cache.get("vertex_normals") if hasattr(cache, "cache") else None
-    return None if normals is None or len(normals) != len(mesh.vertices) else normals
+    if not hasattr(cache, "cache"):
+        return None
+    cache.verify()  # forgets what belongs to earlier vertices
+    normals = cache.cache.get("vertex_normals")
+    if normals is None or len(normals) != len(mesh.vertices):
+        return None
+    # The function behind the property computes normals without looking for known ones. Loaded
+    # normals are those of float32 numbers, so they differ by more than this tolerance.
+    compute = getattr(getattr(type(mesh).vertex_normals, "fget", None), "__wrapped__", None)
+    is_computed = compute is not None and np.allclose(normals, compute(mesh), rtol=0, atol=1e-10)
+    return None if is_computed else normals
 
 
 def _downward(uv: Any) -> Any:

@@ -221,3 +221,23 @@ def test_scenes():
     assert material.base_color_factor == (1, 0, 0, 1) and material.metallic_factor == 0.5
     with pytest.raises(TypeError, match="vertices and faces"):
         mt.scene_of("mesh")
+
+
+def normals_of(mesh):
+    return mt.scene_of(mesh).objects[0].shape.normals
+
+
+def test_only_loaded_normals_are_used():
+    box = trimesh.creation.box()
+    box.vertex_normals  # trimesh keeps what it computes  # noqa: B018
+    assert normals_of(box) is None
+    box.apply_transform(trimesh.transformations.rotation_matrix(0.3, (1, 2, 3), (4, 5, 6)))
+    assert normals_of(box) is None
+    ball = trimesh.creation.icosphere()
+    smooth = np.float32(ball.vertices)
+    loaded = trimesh.Trimesh(ball.vertices, ball.faces, vertex_normals=smooth, process=False)
+    assert np.array_equal(normals_of(loaded), smooth)
+    loaded.apply_transform(trimesh.transformations.rotation_matrix(0.3, (1, 2, 3)))
+    assert normals_of(loaded) is not None
+    loaded.vertices *= (1, 3, 1)  # these normals were those of the ball
+    assert normals_of(loaded) is None
