@@ -39,7 +39,7 @@ class Scene(Brief):
     lights: list[Light] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
     environment: Environment | None = None  #: None: the built-in studio if there are no lights
-    background: Vector | None = None  #: linear Rec. 709; None: 0.6 gray if path traced, else black
+    background: Vector | None = None  #: linear Rec. 709; None: 0.25 gray if path traced, else black
     size: tuple[int, int] = (640, 480)  #: width and height of pictures, pixels
     origin: Vector = (0.0, 0.0, 0.0)  #: world-space position of the scene's (0, 0, 0)
     epsilon: float = 0.0  #: camera rays ignore hits up to this t

@@ -5,6 +5,7 @@ from __future__ import annotations
 import concurrent.futures
 import dataclasses
 import gc
+import inspect
 import os
 import pickle
 import re
@@ -305,6 +306,17 @@ def test_shared_meshes_survive():
     rays = np.random.default_rng(1).normal(size=(500, 6))
     hits, expected = again.intersect(rays), scene.prepare().intersect(rays)
     assert np.isfinite(hits.t).any() and np.array_equal(hits.t, expected.t)
+
+
+def test_default_background_is_the_documented_one():
+    gray = re.search(r"None: ([\d.]+) gray if path traced, else black", inspect.getsource(mt.Scene))
+    camera = mt.look_at((0, 0, 5), (0, 0, 9))
+    scene = mt.Scene().prepare()
+    assert gray is not None
+    lit = mt.render(scene, camera, (1, 1), spp=1).color[0, 0]
+    assert lit.tolist() == [np.float32(gray[1])] * 3
+    flat = mt.render(scene, camera, (1, 1), integrator="flat").color[0, 0]
+    assert flat.tolist() == [0, 0, 0]
 
 
 def test_materials_may_occur_twice():
