@@ -33,14 +33,21 @@ def _add(scene: Scene, mesh: Any, name: str, transform: Any) -> None:
     if not hasattr(mesh, "faces"):
         return  # paths and point clouds
     visual: Any = getattr(mesh, "visual", None)
+    kind = getattr(visual, "kind", None)
     uv = getattr(visual, "uv", None)
-    colors = None
-    if getattr(visual, "kind", None) in ("vertex", "face"):
+    vertices, faces, colors = np.asarray(mesh.vertices), np.asarray(mesh.faces), None
+    normals = _loaded_normals(mesh)
+    if kind == "vertex":
         colors = np.asarray(visual.vertex_colors, np.uint8)
+    elif kind == "face":  # gives each face vertices of its own
+        corners = faces.ravel()
+        vertices, normals = vertices[corners], None if normals is None else normals[corners]
+        faces = np.arange(len(corners)).reshape(-1, 3)
+        colors = np.repeat(np.asarray(visual.face_colors, np.uint8), 3, axis=0)
     scene.add_mesh(
-        np.asarray(mesh.vertices),
-        np.asarray(mesh.faces),
-        normals=_loaded_normals(mesh),
+        vertices,
+        faces,
+        normals=normals,
         uv=None if uv is None else _downward(np.asarray(uv)),
         colors=colors,
         material=_material(getattr(visual, "material", None), has_uv=uv is not None),

@@ -234,8 +234,8 @@ def scene_of(source: Any) -> Scene:
     `faces`.
 
     Ignores vertex normals that trimesh has computed itself, so that faces stay flat. Reads the
-    attributes `vertices`, `faces`, `visual` (vertex colors, texture coordinates, a PBR material),
-    `graph` and `geometry`. Doesn't import trimesh.
+    attributes `vertices`, `faces`, `visual` (colors of vertices or faces, texture coordinates, a
+    PBR material), `graph` and `geometry`. Doesn't import trimesh.
     """
     from ._from_trimesh import scene_from
 

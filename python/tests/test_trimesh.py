@@ -223,6 +223,21 @@ def test_scenes():
         mt.scene_of("mesh")
 
 
+def test_face_colors_are_not_blended():
+    box = trimesh.creation.box()
+    box.visual.face_colors = [[0, 0, 255, 255]] * 12
+    box.visual.face_colors[box.face_normals[:, 2] > 0.5] = (255, 0, 0, 255)
+    prepared = mt.scene_of(box).prepare()
+    assert prepared.is_closed()
+    for direction, color in [((0, 0, 1), [1, 0, 0]), ((1, 0, 0), [0, 0, 1])]:
+        camera = mt.look_at(tuple(5 * x for x in direction), (0, 0, 0), vertical_fov_degrees=2)
+        albedo = mt.render(prepared, camera, (9, 9), aovs=["albedo"]).albedo
+        assert (albedo == np.float32(color)).all()
+    rays = np.random.default_rng(2).normal(size=(100, 6))
+    primitives = mt.scene_of(trimesh.creation.box()).prepare().intersect(rays).primitive
+    assert np.array_equal(prepared.intersect(rays).primitive, primitives)
+
+
 def normals_of(mesh):
     return mt.scene_of(mesh).objects[0].shape.normals
 
