@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import json
+import re
 import subprocess
 import sys
 import tracemalloc
@@ -29,6 +31,16 @@ def client(tmp_path_factory):
         with cluster.client() as client:
             client.wait_for_workers(2, timeout=60)
             yield client
+
+
+def test_documented_arguments_are_missing():
+    text = (SCENES.parent / "docs" / "distributed.md").read_text()
+    exceptions = re.search(
+        r"arguments of `microtrace.render`(?: except `(\w+)` and `(\w+)`)?", text
+    )
+    assert exceptions is not None
+    local, remote = (set(inspect.signature(each).parameters) for each in (mt.render, md.render))
+    assert local - remote == set(exceptions.groups()) and remote - local == {"client", "retries"}
 
 
 @pytest.mark.parametrize("size", [(1, 1), (8, 8), (17, 23), (64, 9)])
