@@ -6,6 +6,7 @@
 #include "accel/few_triangles.hpp"
 #include "accel/instances/dispatch.hpp"
 #include "accel/kernels/kernel.hpp"
+#include "accel/large_triangles.hpp"
 #include "accel/ray_stream.hpp"
 #include "accel/spawn/fast_spawn.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
@@ -28,16 +29,27 @@ struct Bvh::Impl {
             .others = tree.others.data(),
             .root = tree.root,
             .instances = tree.instances.empty() ? nullptr : tree.instances.data(),
-            .scene_block = instance_kernels->scene_block,
-            .few = few.get()};
+            .scene_block = instance_kernels->scene_block};
+  }
+  /// The tree for arrays of rays and for queries near origins, of which `few` or `large` are tested
+  /// without traversal.
+  [[nodiscard]] TreeView view_without_few() const {
+    TreeView result = view();
+    if (large.triangles) result.nodes = large.rest.data();
+    result.few = large.triangles ? large.triangles.get() : few.get();
+    result.few_are_all = large.triangles == nullptr;
+    return result;
   }
 
   [[nodiscard]] RayStream::Target stream_target() const {
-    return {.primitives = primitives, .outside = outside, .kernels = *kernels, .tree = view()};
+    return {.primitives = primitives,
+            .outside = outside,
+            .kernels = *kernels,
+            .tree = view_without_few()};
   }
   [[nodiscard]] FastSpawns make_spawns() const {
     return {primitives, outside, *kernels, *spawn_kernels,
-            has_tree ? std::optional(view()) : std::nullopt};
+            has_tree ? std::optional(view_without_few()) : std::nullopt};
   }
 
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
@@ -56,6 +68,7 @@ struct Bvh::Impl {
   const std::vector<PrimitiveId>& outside = tree.unbounded;  // tested one by one
   bool has_tree = tree.has_leaves();
   std::unique_ptr<const FewTriangles> few = few_triangles(tree);
+  LargeTriangles large = few ? LargeTriangles{} : large_triangles(tree);
   const Kernels* kernels;
   const SpawnKernels* spawn_kernels;
   const InstanceKernels* instance_kernels;

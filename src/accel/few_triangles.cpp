@@ -161,40 +161,47 @@ Entry entry_of(const TriangleBlock& block, std::size_t lane) {
 
 }  // namespace
 
-std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree, double most_growth) {
-  if (tree.blocks.empty() || tree.blocks.size() > FewTriangles::kMost || !tree.others.empty() ||
-      !tree.instances.empty())
-    return nullptr;
-  auto result = std::make_unique<FewTriangles>();
-  std::span<Facet> facets;
-  for (std::size_t slot = 0; slot < tree.blocks.size() * kWidth; ++slot) {
-    const TriangleBlock& block = tree.blocks[slot / kWidth];
-    const std::size_t k = slot % kWidth;
-    if (!is_used(block, k)) continue;
-    const auto known = std::span(result->entries).first(static_cast<std::size_t>(result->count));
-    // Large triangles can be in several leaves.
-    if (std::ranges::find(known, block.id[k], &Entry::id) != known.end()) continue;
-    if (result->count == FewTriangles::kMost) return nullptr;
-    const int number = result->count++;
-    Entry& entry = result->entries[number] = entry_of(block, k);
-    entry.slot = static_cast<std::uint32_t>(slot);
-    const bool is_joined = std::ranges::any_of(facets, [&](Facet& facet) {
-      return facet.second < 0 &&
-             join(result->entries[facet.first], entry, number, most_growth, facet);
-    });
-    if (is_joined) continue;
-    facets = std::span(result->facets).first(facets.size() + 1);
-    facets.back() = facet_of(entry, number, block);
-  }
+bool FewTrianglesBuilder::add(std::size_t slot) {
+  const TriangleBlock& block = tree_.blocks[slot / kWidth];
+  const std::size_t k = slot % kWidth;
+  FewTriangles& few = *triangles_;
+  const auto known = std::span(few.entries).first(static_cast<std::size_t>(few.count));
+  // Large triangles can be in several leaves.
+  if (std::ranges::find(known, block.id[k], &Entry::id) != known.end()) return true;
+  if (few.count == FewTriangles::kMost) return false;
+  const int number = few.count++;
+  Entry& entry = few.entries[number] = entry_of(block, k);
+  entry.slot = static_cast<std::uint32_t>(slot);
+  const auto facets = std::span(few.facets).first(facets_);
+  const bool is_joined = std::ranges::any_of(facets, [&](Facet& facet) {
+    return facet.second < 0 && join(few.entries[facet.first], entry, number, most_growth_, facet);
+  });
+  if (!is_joined) few.facets[facets_++] = facet_of(entry, number, block);
+  return true;
+}
+
+std::unique_ptr<const FewTriangles> FewTrianglesBuilder::finish() && {
+  const auto facets = std::span(triangles_->facets).first(facets_);
   for (Facet& facet : facets) {
-    if (facet.axis < FewTriangles::kOblique && !put_rectangle(*result, facet))
+    if (facet.axis < FewTriangles::kOblique && !put_rectangle(*triangles_, facet))
       facet.axis = FewTriangles::kOblique;
   }
   std::ranges::stable_sort(facets, {}, &Facet::axis);
   for (int axis = 0; axis <= FewTriangles::kOblique; ++axis)
-    result->ends[axis] =
+    triangles_->ends[axis] =
         static_cast<int>(std::ranges::upper_bound(facets, axis, {}, &Facet::axis) - facets.begin());
-  return result;
+  return std::move(triangles_);
+}
+
+std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree, double most_growth) {
+  if (tree.blocks.empty() || tree.blocks.size() > FewTriangles::kMost || !tree.others.empty() ||
+      !tree.instances.empty())
+    return nullptr;
+  FewTrianglesBuilder builder(tree, most_growth);
+  for (std::size_t slot = 0; slot < tree.blocks.size() * kWidth; ++slot) {
+    if (is_used(tree.blocks[slot / kWidth], slot % kWidth) && !builder.add(slot)) return nullptr;
+  }
+  return std::move(builder).finish();
 }
 
 }  // namespace microtrace

@@ -4,6 +4,7 @@
 
 #include "accel/build/tree.hpp"
 #include "accel/kernel_rays.hpp"
+#include "accel/large_triangles.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"
@@ -136,6 +137,50 @@ TEST(FewTriangles, RaysThroughParallelogramsHaveTheirExactHits) {
     }
     EXPECT_GT(joined, triangles / 2);
     EXPECT_GT(rectangles, rounds / 2);
+    EXPECT_GT(hits, rounds * kRays / 4);
+  });
+}
+
+/// Adds a cluster of small triangles at a random point of the first parallelogram.
+void add_small_triangles(Random& random, int count, Parallelograms& all) {
+  const Vec3 center = random_target(random, all.corners[0]);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 at = center + 0x1p-3F * random.in_cube(1);
+    const Vec3 b = at + 0x1p-5F * random.in_cube(1), c = at + 0x1p-5F * random.in_cube(1);
+    if (i % 8 == 0) all.corners.push_back({.a = at, .b = b, .c = c, .d = c});  // of some targets
+    all.scene.objects.push_back({.name = "", .shape = Triangle{.a = at, .b = b, .c = c}});
+  }
+}
+
+TEST(FewTriangles, LargeTrianglesAmongManyHaveTheirExactHits) {
+  with_each_kernel([] {
+    Random random = traversal::announced_random(63);
+    const std::size_t rounds = traversal::ray_count(0.02) / kRays;
+    std::size_t with_large = 0, hits = 0;
+    for (std::size_t round = 0; round < rounds; ++round) {
+      Parallelograms all(random, 4, 1 << random.between(0, 4));
+      add_small_triangles(random, 200, all);
+      const Primitives primitives(all.scene);
+      const LargeTriangles large = large_triangles(build_tree(primitives, {}));
+      if (large.triangles) {
+        ++with_large;
+        EXPECT_LT(large.triangles->count, 40);
+      }
+      const Bvh bvh(all.scene);
+      std::vector<Ray> rays;
+      for (std::size_t i = 0; i < kRays; ++i) rays.push_back(random_ray(random, all));
+      std::vector<std::optional<Hit>> found(kRays);
+      bvh.intersect(rays, found);
+      const auto occluded = std::make_unique<bool[]>(kRays);
+      bvh.occluded(rays, std::span(occluded.get(), kRays));
+      for (std::size_t i = 0; i < kRays; ++i) {
+        const std::optional<Hit> expected = hit_by_definition(primitives, rays[i]);
+        hits += expected ? 1 : 0;
+        ASSERT_TRUE(same(found[i], expected)) << "ray " << i << " of round " << round;
+        ASSERT_EQ(occluded[i], expected.has_value()) << "ray " << i << " of round " << round;
+      }
+    }
+    EXPECT_GT(with_large, rounds / 2);
     EXPECT_GT(hits, rounds * kRays / 4);
   });
 }

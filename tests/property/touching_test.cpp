@@ -4,8 +4,10 @@
 #include "accel/build/tree.hpp"
 #include "accel/few_triangles.hpp"
 #include "accel/kernels/dispatch.hpp"
+#include "accel/large_triangles.hpp"
 #include "support/cases/adversarial_rays.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <set>
@@ -47,7 +49,9 @@ class Places {
     scene_.objects.push_back({.name = "", .shape = mesh});
     tree_ = build_tree(Primitives(scene_), {.fast = false, .threads = 1});
     few_ = few_triangles(tree_);
+    if (!few_) large_ = large_triangles(tree_);
   }
+  [[nodiscard]] bool has_large() const { return large_.triangles != nullptr; }
 
   /// Returns the triangles that the query finds. Nothing if they are too many.
   std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi,
@@ -58,28 +62,39 @@ class Places {
     query.omitted_id[0] = omitted.id;
     query.plane_axis[0] = static_cast<float>(omitted.plane_axis);
     query.plane_at[0] = omitted.plane_at;
-    const auto found = search(query, nullptr);
-    // Without traversal, the same triangles are found.
-    if (few_) {
-      EXPECT_EQ(found, search(query, few_.get()));
+    const auto found = search(query, tree());
+    if (few_) {  // without traversal, the same triangles are found
+      TreeView view = tree();
+      view.few = few_.get();
+      EXPECT_EQ(found, search(query, view));
     }
+    if (has_large()) check_large(found[0], query);
     return found[0];
   }
 
   /// Returns the triangles that each query finds by traversal.
   std::vector<std::optional<std::set<PrimitiveId>>> search(BoxQueries& queries) const {
-    return search(queries, nullptr);
+    return search(queries, tree());
   }
 
  private:
+  /// Checks that the triangles are also found if large ones are searched without traversal. Of
+  /// these, more may be found, because leaves have only parts of their boxes.
+  void check_large(const std::optional<std::set<PrimitiveId>>& expected, BoxQueries& query) const {
+    TreeView view = tree();
+    view.nodes = large_.rest.data();
+    view.few = large_.triangles.get();
+    view.few_are_all = false;
+    const auto found = search(query, view)[0];
+    if (!found) return;
+    ASSERT_TRUE(expected);
+    EXPECT_TRUE(std::ranges::includes(*found, *expected));
+    EXPECT_LE(found->size(), expected->size() + static_cast<std::size_t>(large_.triangles->count));
+  }
+
   std::vector<std::optional<std::set<PrimitiveId>>> search(BoxQueries& queries,
-                                                           const FewTriangles* few) const {
-    kernels_.touching({.nodes = tree_.nodes.data(),
-                       .blocks = tree_.blocks.data(),
-                       .others = tree_.others.data(),
-                       .root = tree_.root,
-                       .few = few},
-                      queries);
+                                                           const TreeView& view) const {
+    kernels_.touching(view, queries);
     std::vector<std::optional<std::set<PrimitiveId>>> result;
     for (int query = 0; query < queries.size; ++query) {
       auto& found = result.emplace_back();
@@ -93,10 +108,18 @@ class Places {
     return result;
   }
 
+  [[nodiscard]] TreeView tree() const {
+    return {.nodes = tree_.nodes.data(),
+            .blocks = tree_.blocks.data(),
+            .others = tree_.others.data(),
+            .root = tree_.root};
+  }
+
   Scene scene_;
   const Kernels& kernels_;
   Tree tree_;
   std::unique_ptr<const FewTriangles> few_;
+  LargeTriangles large_;
 };
 
 // The edges pass exactly through a point, although its distances from the vertices are rounded.
@@ -250,6 +273,29 @@ TEST_P(Touching, QueriesPartInManySubtrees) {
     expected.push_back(places.near(lo, hi));
   }
   EXPECT_EQ(places.search(queries), expected);
+}
+
+// The large triangles of a tree are searched without traversal.
+TEST_P(Touching, FindsLargeAndSmallTriangles) {
+  Random random(29);
+  int with_large = 0;
+  for (int round = 0; round < 50; ++round) {
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i)
+      append_triangle(mesh, random.in_cube(1), random.in_cube(1), random.in_cube(1));
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 at = Vec3(0.5F) + 0x1p-3F * random.in_cube(1);
+      append_triangle(mesh, at, at + 0x1p-6F * random.in_cube(1), at + 0x1p-6F * random.in_cube(1));
+    }
+    const Places places(mesh, *GetParam());
+    with_large += places.has_large() ? 1 : 0;
+    for (int query = 0; query < 50; ++query) {
+      const Vec3 at = mesh.positions[static_cast<std::size_t>(random.between(0, 923))];
+      const auto ids = places.near(at - Vec3(0x1p-10F), at + Vec3(0x1p-10F));
+      ASSERT_TRUE(ids && !ids->empty());
+    }
+  }
+  EXPECT_GT(with_large, 25);
 }
 
 }  // namespace

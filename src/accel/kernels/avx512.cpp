@@ -3,7 +3,7 @@
 #include "accel/kernels/packet/packet_rays.hpp"
 #include "accel/kernels/packet/packet_shapes.hpp"
 #include "accel/kernels/round_t.hpp"
-#include "accel/kernels/stream.hpp"
+#include "accel/kernels/stream_queries.hpp"
 #include "accel/kernels/stream_rays.hpp"
 
 namespace microtrace {

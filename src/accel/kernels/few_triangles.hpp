@@ -4,6 +4,7 @@
 /// tree anyway.
 
 #include "accel/kernels/block_test.hpp"
+#include "accel/kernels/entering_rays.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/rectangle_test.hpp"
 
@@ -180,16 +181,7 @@ class FewTrianglesWalk {
   /// Returns the rays that enter a triangle's bounding box before their nearest hits. As in a tree,
   /// few of the rays in a triangle's plane do.
   [[nodiscard]] Lanes entering(const FewTriangles::Box& box, const Group& group) const {
-    const F(&o)[3] = group.rectangle_rays.o;
-    F enter = group.begin, leave = group.best_hi;
-    for (int axis = 0; axis < 3; ++axis) {
-      const F near_factor = load<N>(stream_.near[axis] + first_),
-              far_factor = load<N>(stream_.far[axis] + first_);
-      const F zero{}, lo = box.lo[axis] - o[axis], hi = box.hi[axis] - o[axis];
-      enter = greater(near_factor * (near_factor < zero ? hi : lo), enter);
-      leave = lesser(far_factor * (far_factor < zero ? lo : hi), leave);
-    }
-    return less_equal<N>(enter, leave);
+    return rays_entering<N>(stream_, first_, box, group.best_hi);
   }
 
   /// Removes the rays that pass through the front of an open triangle.

@@ -21,7 +21,10 @@ struct TreeView {
   /// Transforms a block of an instance's mesh to the scene, as Placement::point does.
   void (*scene_block)(const Instance& instance, const TriangleBlock& from,
                       TriangleBlock& to) = nullptr;
-  const FewTriangles* few = nullptr;  ///< all primitives, if they are few triangles
+  /// Triangles that are tested without traversal: all primitives if few_are_all, otherwise those
+  /// that the nodes leave out.
+  const FewTriangles* few = nullptr;
+  bool few_are_all = true;
   /// One bit per primitive, or null. any_of_stream passes through the fronts of these triangles.
   const std::uint32_t* open_fronts = nullptr;
 };

@@ -4,25 +4,13 @@
 /// N rays at a time. Once few rays are left in a subtree, the traversal of stream.hpp takes over.
 
 #include "accel/kernels/block_test.hpp"
+#include "accel/kernels/entering_rays.hpp"
 #include "accel/kernels/node_test.hpp"
 #include "accel/kernels/single_ray.hpp"
 #include "accel/kernels/slabs.hpp"
 
 namespace microtrace {
 namespace {
-
-/// An item of remaining work: a ray and a subtree that it must visit.
-struct StreamItem {
-  int ray;
-  ChildRef child;
-};
-
-/// The remaining work of all packets. If this array is full, the packets do the work themselves.
-struct StreamItems {
-  static constexpr int kCapacity = 4 * kStreamRays;
-  int size = 0;
-  StreamItem item[kCapacity];
-};
 
 template <int N>
 class OcclusionPacketWalk {

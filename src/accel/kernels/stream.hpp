@@ -5,9 +5,8 @@
 /// each ray's next step is prefetched.
 
 #include "accel/kernels/block_test.hpp"
-#include "accel/kernels/few_triangles.hpp"
+#include "accel/kernels/entering_rays.hpp"
 #include "accel/kernels/node_test.hpp"
-#include "accel/kernels/occlusion_packet.hpp"
 #include "accel/kernels/slabs.hpp"
 #include "simd/lane_count.hpp"
 
@@ -266,31 +265,6 @@ class StreamWalk {
   MaybeHit hits_[kInFlight + 1];
   Flight flights_[kInFlight];
 };
-
-/// M: number of rays that are tested against one triangle at a time.
-template <int N, int M>
-void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
-  if (has_few_triangles<M>(tree))
-    FewTrianglesWalk<M, false>(tree, stream, slow).run();
-  else if (tree.instances != nullptr)
-    StreamWalk<N, false, true>(tree, stream, slow, nullptr).run();
-  else
-    StreamWalk<N, false, false>(tree, stream, slow, nullptr).run();
-}
-
-/// M is the number of rays that packets test at a time.
-template <int N, int M>
-void any_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
-  if (has_few_triangles<M>(tree)) return FewTrianglesWalk<M, true>(tree, stream, slow).run();
-  StreamItems items;
-  OcclusionPacketWalk<M> packets(tree, stream, slow, items);
-  for (int first = 0; first < stream.count; first += OcclusionPacketWalk<M>::kRays)
-    packets.run(first);
-  if (tree.instances != nullptr)
-    StreamWalk<N, true, true>(tree, stream, slow, &items).run();
-  else
-    StreamWalk<N, true, false>(tree, stream, slow, &items).run();
-}
 
 }  // namespace
 }  // namespace microtrace

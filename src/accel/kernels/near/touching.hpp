@@ -249,10 +249,11 @@ class TreeSearch {
 template <int N, int M>
 void touching(const TreeView& tree, BoxQueries& queries) {
   for (int& count : queries.count) count = 0;
-  if (has_few_triangles<M>(tree))
+  if (has_few_triangles<M>(tree)) {
     FewTrianglesSearch<M>(tree, queries).run();
-  else
-    TreeSearch<N, M>(tree, queries).run();
+    if (tree.few_are_all) return;
+  }
+  TreeSearch<N, M>(tree, queries).run();
 }
 
 }  // namespace
