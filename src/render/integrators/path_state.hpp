@@ -83,9 +83,10 @@ struct alignas(64) ShadowColumns : RayArrays {
 
 /// Parameters common to all paths of a wavefront at one bounce.
 struct WaveStep {
-  std::uint32_t depth = 1;  ///< number of the current path segment, counted from 1
-  float sample_width = 1;   ///< distance between samples, in pixels
-  bool is_spec = false;     ///< true for BsdfModel::spec
+  std::uint32_t depth = 1;   ///< number of the current path segment, counted from 1
+  float sample_width = 1;    ///< distance between samples, in pixels
+  bool is_spec = false;      ///< true for BsdfModel::spec
+  bool has_textures = true;  ///< true if footprints matter
 
   /// The number of the pair of random numbers `which` at this bounce.
   [[nodiscard]] std::uint32_t pair(std::uint32_t which) const {

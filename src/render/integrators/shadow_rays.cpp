@@ -1,6 +1,5 @@
 #include "render/integrators/shadow_rays.hpp"
 
-#include "render/integrators/column_list.hpp"
 #include "render/shading/transmittance.hpp"
 
 #include <bit>
@@ -16,30 +15,32 @@ constexpr std::uint32_t kNoTarget = LightSamples<kShadingLanes>::kNoTarget;
 void ShadowRays::Group::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from,
                             const LaneFloats& t_max) {
   if (lanes == 0) return;
-  ColumnList list;
-  list.add(from.rays.origin, rays.o);
-  list.add(from.rays.direction, rays.d);
-  list.add(t_max, rays.t_max);
-  list.add(from.left, rays.left);
-  list.add(from.samples.target, rays.target);
-  list.add(from.slots, rays.slot);
-  list.add(from.media, rays.media);
-  list.add(from.light, rays.light);
-  count += list.append(kernels, {.lanes = lanes, .from = 0, .to = count});
+  if (columns.begins(&from.rays)) {
+    columns.add(from.rays.origin, rays.o);
+    columns.add(from.rays.direction, rays.d);
+    columns.add(t_max, rays.t_max);
+    columns.add(from.left, rays.left);
+    columns.add(from.samples.target, rays.target);
+    columns.add(from.slots, rays.slot);
+    columns.add(from.media, rays.media);
+    columns.add(from.light, rays.light);
+  }
+  count += columns.append(kernels, {.lanes = lanes, .from = 0, .to = count});
 }
 
 void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  LaneFloats t_max;
   Lanes aimed = 0;
+  // A punctual light is at t = 1. An emissive triangle is hit at about t = 1. Two loops, because
+  // compilers vectorize only the first one.
   for (int lane = 0; lane < kShadingLanes; ++lane) {
     const bool has_target = from.samples.target[lane] != kNoTarget;
-    aimed |= Lanes{has_target} << lane;
-    // A punctual light is at t = 1. An emissive triangle is hit at about t = 1.
-    t_max[lane] = has_target || from.samples.is_far[lane] != 0 ? kInfinity : 1;
+    t_max_[lane] = has_target | (from.samples.is_far[lane] != 0) ? kInfinity : 1;
   }
-  aimed_.add(kernels, lanes & aimed, from, t_max);
-  free_.add(kernels, lanes & ~aimed, from, t_max);
+  for (int lane = 0; lane < kShadingLanes; ++lane)
+    aimed |= Lanes{from.samples.target[lane] != kNoTarget} << lane;
+  aimed_.add(kernels, lanes & aimed, from, t_max_);
+  free_.add(kernels, lanes & ~aimed, from, t_max_);
 }
 
 std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading& shading,

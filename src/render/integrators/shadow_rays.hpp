@@ -2,6 +2,7 @@
 /// Traces shadow rays and adds the light that arrives.
 
 #include "accel/ray_tracer.hpp"
+#include "render/integrators/column_list.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/media/nested_media.hpp"
@@ -31,7 +32,8 @@ struct ShadowLanes {
 /// A batch of shadow rays.
 class ShadowRays {
  public:
-  /// Adds the rays in these lanes. There may be at most kRandomBatch rays.
+  /// Adds the rays in these lanes. There may be at most kRandomBatch rays. All arrays to which
+  /// `rays` refers must be at fixed distances from rays.rays.
   void add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& rays);
 
   [[nodiscard]] std::size_t count() const { return free_.count + aimed_.count; }
@@ -46,12 +48,14 @@ class ShadowRays {
   struct Group {
     std::size_t count = 0;
     ShadowColumns rays;
+    ColumnList columns{};  ///< those that add() copies
 
     void add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from,
              const LaneFloats& t_max);
   };
 
   Group free_, aimed_;
+  LaneFloats t_max_;                            // working memory of add()
   std::array<PrimitiveId, kRandomBatch> hits_;  // working memory
 };
 

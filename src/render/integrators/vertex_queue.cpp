@@ -160,7 +160,7 @@ void VertexQueue::cast_shadows(Lanes lanes, OutgoingRays& outgoing) {
 void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays& outgoing) {
   copy(origins_.direction, scatter_.wi);
   const Lanes found = outgoing.tracer.leave(lanes, origins_);
-  for (int lane = 0; lane < kShadingLanes; ++lane)
+  for (int lane = 0; lane < kShadingLanes && step.has_textures; ++lane)
     spreads_[lane] += (found >> lane & 1U) != 0 ? step.spread(scatter_.pdf[lane]) : 0;
   if (features_.transmits) {
     for (int lane = 0; lane < kShadingLanes; ++lane) {

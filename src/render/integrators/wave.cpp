@@ -37,7 +37,8 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
   world_ = &world;
   shading_ = world.shading;
   lighting_ = world.lighting;
-  step_ = {.sample_width = 1 / std::sqrt(static_cast<float>(world.samples))};
+  step_ = {.sample_width = 1 / std::sqrt(static_cast<float>(world.samples)),
+           .has_textures = shading_->has_textures()};
   vertices_.begin(*lighting_, world.guide);
   tracer_.begin(world.bvh);
   media_.clear();

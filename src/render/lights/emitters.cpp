@@ -19,7 +19,7 @@ namespace {
 
 /// The bytes that each emitter needs for its entry, bounds and tree nodes, including unused
 /// capacity.
-constexpr std::uint64_t kBytesOfEmitter = 360;
+constexpr std::uint64_t kBytesOfEmitter = 368;
 
 void take_memory_for_emitters(std::uint64_t count) {
   take_memory(count * kBytesOfEmitter, "the lights of the scene");
@@ -32,6 +32,11 @@ Emitters::Emitters(const Scene& scene, const Shading& shading) : scene_(scene), 
   add_surfaces(bounds);
   add_lights(bounds);
   if (!bounds.empty()) tree_.emplace(bounds);
+  for (std::uint32_t light = 0; light < emitters_.size(); ++light) {
+    const std::optional<std::uint32_t> triangle = triangle_index(light);
+    const bool is_untextured = triangle && triangles_[*triangle].is_textured == 0;
+    untextured_triangles_.push_back(is_untextured ? *triangle : kNone);
+  }
   for (const std::uint32_t i : far_lights_) {
     if (const auto light = of_punctual(punctual_[i], Vec3(0)))
       far_light_ += luminance(light->light);

@@ -51,6 +51,11 @@ class Emitters {
 
   /// The emissive triangles of meshes.
   [[nodiscard]] const TriangleLight* triangles() const { return triangles_.data(); }
+  static constexpr std::uint32_t kNone = ~0U;
+  /// For each near light, the index of an untextured triangle; kNone for others.
+  [[nodiscard]] const std::uint32_t* untextured_triangles() const {
+    return untextured_triangles_.data();
+  }
   /// The index of a near light among the triangles; nothing for other lights.
   [[nodiscard]] std::optional<std::uint32_t> triangle_index(std::uint32_t light) const {
     const Emitter& emitter = emitters_[light];
@@ -75,8 +80,6 @@ class Emitters {
                           float cosine, double probability) const;
 
  private:
-  static constexpr std::uint32_t kNone = ~0U;
-
   /// A triangle of a mesh, a single shape, or a near light of Scene::lights.
   struct Emitter {
     PrimitiveId id = 0;
@@ -98,6 +101,7 @@ class Emitters {
   std::vector<std::uint32_t> far_lights_;  // indices into Scene::lights
   std::vector<Emitter> emitters_;          // emissive surfaces first, sorted by id
   std::vector<TriangleLight> triangles_;
+  std::vector<std::uint32_t> untextured_triangles_;
   std::vector<PunctualLight> punctual_;  // by index in Scene::lights
   std::size_t surfaces_ = 0;
   std::optional<LightTree> tree_;  // tree of the emitters

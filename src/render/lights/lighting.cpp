@@ -117,9 +117,16 @@ void Lighting::sample(const ShadingKernels& kernels, int count, Choices& choices
   std::ranges::fill(triangles.triangle, 0U);
   std::ranges::fill(punctual.selected, 0.0F);
   std::ranges::fill(punctual.light, 0U);
+  const std::uint32_t* const untextured = emitters_.untextured_triangles();
   for (int lane = 0; lane < count; ++lane) {
     if (points.kind[lane] == LightKind::near) {
-      sample_near(lane, choices, samples);
+      const std::uint32_t triangle = untextured[points.light[lane]];
+      if (triangle != Emitters::kNone) {
+        triangles.selected[lane] = 1;
+        triangles.triangle[lane] = triangle;
+      } else {
+        sample_near(lane, choices, samples);
+      }
     } else if (points.kind[lane] == LightKind::far) {
       punctual.selected[lane] = 1;
       punctual.light[lane] = emitters_.far_light(points.choice[lane]);
