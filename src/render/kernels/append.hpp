@@ -23,6 +23,13 @@ int append(const ColumnCopy* columns, int column_count, const AppendedLanes& whi
   if constexpr (N == 16) {
     const auto lanes = static_cast<__mmask16>(which.lanes),
                first = static_cast<__mmask16>((1U << count) - 1);
+    // Stores of whole vectors are faster. What follows is overwritten later or not used.
+    if (which.has_room) {
+      append_all([&](const float* from, float* to) {
+        _mm512_storeu_ps(to, _mm512_maskz_compress_ps(lanes, load<N>(from)));
+      });
+      return count;
+    }
     append_all([&](const float* from, float* to) {
       _mm512_mask_storeu_ps(to, first, _mm512_maskz_compress_ps(lanes, load<N>(from)));
     });

@@ -101,6 +101,8 @@ struct ColumnCopy {
 struct AppendedLanes {
   std::uint32_t lanes;  ///< one bit for each of kShadingLanes lanes
   std::size_t from, to;
+  /// True if kShadingLanes elements of the arrays from `to` on may be overwritten.
+  bool has_room = false;
 };
 
 struct ShadingKernels {

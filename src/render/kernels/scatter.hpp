@@ -38,6 +38,8 @@ class Vertices {
 
  private:
   using Bsdf = bsdf::Bsdf<N, Parts>;
+  /// False if the BSDF doesn't use the random number that selects a lobe.
+  static constexpr bool kHasLobes = !__is_same(Parts, bsdf::MatteParts<N>);
 
   [[nodiscard]] bsdf::Surface<N> load_surface() const {
     if constexpr (__is_same(FeaturesType, bsdf::PlainFeatures))
@@ -86,7 +88,9 @@ class Vertices {
   void sample_direction(const ScatterSetup& setup, const Bsdf& bsdf) {
     if (setup.is_guided) return sample_guided(bsdf);
     const auto sobol = load_sobol<N>(lanes_.key + i_, lanes_.index + i_);
-    const auto chances = sobol.pair(setup.lobe_pair);
+    const bool plays_roulette = setup.most_survival < 1;
+    Floats2<N> chances{};
+    if (kHasLobes || plays_roulette) chances = sobol.pair(setup.lobe_pair);
     const auto u = sobol.pair(setup.direction_pair);
     const auto [local, e] = bsdf.sample(u, chances.x);
     const V wi = frame_.to_world(local);
@@ -98,7 +102,7 @@ class Vertices {
       store<N>(lanes_.is_below + i_, is_below ? all<N>(1) : F{});
     }
     auto survives = (e.pdf > 0) & is_consistent(wi, local.z);
-    if (setup.most_survival < 1) {
+    if (plays_roulette) {
       const F survival = limited_survival<N>(survival_of<N>(next), next, setup.most_survival);
       survives = survives & (chances.y < survival);
       next = next / survival;  // not by its reciprocal, which may overflow

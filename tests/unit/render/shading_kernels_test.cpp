@@ -210,7 +210,9 @@ TEST_P(ShadingKernelsTest, LanesAreAppendedInOrder) {
     const std::size_t first = random.bits() % (2 * kShadingLanes),
                       end = random.bits() % kShadingLanes;
     const ColumnCopy columns[] = {{from[0], to[0]}, {from[1], to[1]}};
-    GetParam()->append(columns, 2, {.lanes = lanes, .from = first, .to = end});
+    const bool has_room = random.number() < 0.5F;
+    GetParam()->append(columns, 2,
+                       {.lanes = lanes, .from = first, .to = end, .has_room = has_room});
     for (int column = 0; column < 2; ++column) {
       std::size_t place = end;
       for (std::size_t lane = 0; lane < kShadingLanes; ++lane) {
@@ -218,9 +220,10 @@ TEST_P(ShadingKernelsTest, LanesAreAppendedInOrder) {
           ASSERT_EQ(to[column][place++], from[column][first + lane]);
         }
       }
-      // Other elements remain unchanged.
+      // Other elements remain unchanged, except for those that may be overwritten.
+      const std::size_t after = has_room ? end + kShadingLanes : place;
       for (std::size_t k = 0; k < 2 * kShadingLanes; ++k) {
-        if (k < end || k >= place) {
+        if (k < end || k >= after) {
           ASSERT_EQ(to[column][k], -1);
         }
       }
