@@ -1,6 +1,7 @@
 #include "common.hpp"
 
 #include <exception>
+#include <new>
 
 namespace microtrace::python {
 
@@ -25,14 +26,25 @@ nb::object to_python(const Diagnostic& diagnostic) {
                                         text_of(diagnostic.message), text_of(diagnostic.text()));
 }
 
+namespace {
+
+/// Sets the Python exception for an error.
+void set_exception(ErrorKind kind, const Diagnostic& diagnostic) {
+  const nb::object exception =
+      member("errors", "error_of")(static_cast<int>(kind), to_python(diagnostic));
+  PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
+}
+
+}  // namespace
+
 void bind_errors(nb::module_& /*module*/) {
   nb::register_exception_translator([](const std::exception_ptr& thrown, void* /*payload*/) {
     try {
       std::rethrow_exception(thrown);
     } catch (const Error& error) {
-      const nb::object exception = member("errors", "error_of")(static_cast<int>(error.kind()),
-                                                                to_python(error.diagnostic()));
-      PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
+      set_exception(error.kind(), error.diagnostic());
+    } catch (const std::bad_alloc&) {
+      set_exception(ErrorKind::limit, {.message = "out of memory"});
     }
   });
 }

@@ -14,6 +14,11 @@
 namespace microtrace::python {
 namespace {
 
+[[noreturn]] void refuse_memory() {
+  throw Error(ErrorKind::limit, "",
+              "no memory for the arrays of the pictures; ask for smaller or fewer ones");
+}
+
 /// A block of memory for an array. The memory of deleted arrays is kept for new arrays of the same
 /// size, because getting cleared pages from the system takes as long as filling them.
 class Memory {
@@ -22,7 +27,7 @@ class Memory {
     if (data_ != nullptr) return;
     const bool is_large = bytes_ >= 2 * kHugePage;
     data_ = std::aligned_alloc(is_large ? kHugePage : kLine, bytes_);
-    if (data_ == nullptr) throw std::bad_alloc();
+    if (data_ == nullptr) refuse_memory();
     if (is_large) madvise(data_, bytes_, MADV_HUGEPAGE);
   }
   Memory(const Memory&) = delete;
@@ -93,8 +98,7 @@ class Memory {
 nb::object picture_array(const std::vector<std::size_t>& shape, bool is_integer) {
   std::size_t bytes = 4;
   for (const std::size_t extent : shape) {
-    if (__builtin_mul_overflow(bytes, extent, &bytes) || bytes > PTRDIFF_MAX / 2)
-      throw std::bad_alloc();
+    if (__builtin_mul_overflow(bytes, extent, &bytes) || bytes > PTRDIFF_MAX / 2) refuse_memory();
   }
   auto* const memory = new Memory(bytes);
   const nb::capsule keeper(memory, [](void* p) noexcept { delete static_cast<Memory*>(p); });

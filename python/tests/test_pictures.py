@@ -461,5 +461,5 @@ def test_memory_is_reused_but_not_shared():
 
 def test_picture_too_large_for_memory():
     prepared = mt.load(KNOT).prepare()
-    with pytest.raises(MemoryError):
+    with pytest.raises(mt.LimitError, match="no memory for the arrays .* smaller or fewer"):
         mt.render(prepared, [mt.frame(prepared)] * 10**5, (65536, 65536), aovs=["depth"])

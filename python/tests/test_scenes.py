@@ -9,6 +9,8 @@ import inspect
 import os
 import pickle
 import re
+import subprocess
+import sys
 import tracemalloc
 
 import microtrace as mt
@@ -306,6 +308,23 @@ def test_shared_meshes_survive():
     rays = np.random.default_rng(1).normal(size=(500, 6))
     hits, expected = again.intersect(rays), scene.prepare().intersect(rays)
     assert np.isfinite(hits.t).any() and np.array_equal(hits.t, expected.t)
+
+
+def test_scene_too_large_for_memory():
+    """Runs in another process, whose memory is limited."""
+    script = """
+import resource, microtrace as mt, numpy as np
+scene = mt.Scene()
+scene.add_mesh(np.eye(3), np.broadcast_to(np.uint32([0, 1, 2]), (10**8, 3)))
+resource.setrlimit(resource.RLIMIT_AS, (2**31, 2**31))
+try:
+    scene.prepare()
+except mt.LimitError as error:
+    print(error)
+"""
+    command = [sys.executable, "-c", script]
+    result = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "memory" in result.stdout
 
 
 def test_default_background_is_the_documented_one():
