@@ -101,7 +101,8 @@ struct OpenEdge {
 /// coincide. docs/exactness.md has the definitions.
 ///
 /// Points are in world space. If Scene::origin is not zero, they are translated in float64 and
-/// rounded to float32 once, as PreparedScene does with the origins of rays.
+/// rounded to float32 once, as PreparedScene does with the origins of rays. Far from the origin of
+/// world space, use points in float64, which are not rounded before.
 ///
 /// Immutable and cheap to copy; copies share everything. Any number of threads may use it at the
 /// same time.
@@ -124,6 +125,8 @@ class MICROTRACE_EXPORT Solid {
   /// that are not finite are outside. Throws Error (canceled) if options.progress returns false.
   void locate(std::span<const Vec3> points, std::span<Location> locations,
               const QueryOptions& options = {}) const;
+  void locate(std::span<const DVec3> points, std::span<Location> locations,
+              const QueryOptions& options = {}) const;
 
   /// Sets nearest[i] to the point of the surface that is nearest to points[i], or to nothing if
   /// points[i] is not finite or there are no triangles. Both spans must have the same size. Throws
@@ -135,12 +138,16 @@ class MICROTRACE_EXPORT Solid {
   /// points[i] and the triangle's vertices. The bits of the results are the same on every machine.
   void nearest_points(std::span<const Vec3> points, std::span<std::optional<NearestPoint>> nearest,
                       const QueryOptions& options = {}) const;
+  void nearest_points(std::span<const DVec3> points, std::span<std::optional<NearestPoint>> nearest,
+                      const QueryOptions& options = {}) const;
 
   /// Sets distances[i] to the distance from points[i] to the surface: negative if the point is
   /// inside, 0 if it is on the boundary, and infinite if the point is not finite or there are no
   /// triangles. Both spans must have the same size. Throws Error (canceled) if options.progress
   /// returns false.
   void signed_distances(std::span<const Vec3> points, std::span<double> distances,
+                        const QueryOptions& options = {}) const;
+  void signed_distances(std::span<const DVec3> points, std::span<double> distances,
                         const QueryOptions& options = {}) const;
 
  private:

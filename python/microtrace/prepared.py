@@ -243,8 +243,9 @@ class PreparedScene:
         correct.
 
         Args:
-            points: (..., 3) real numbers, world space; float64 is rounded to float32. Points with
-                coordinates that are not finite are outside.
+            points: (..., 3) real numbers, world space. Scene.origin is subtracted in float64, and
+                the results are rounded to float32. Points with coordinates that are not finite are
+                outside.
             object: index into Scene.objects; None means all triangles of the scene together.
             threads: number of threads; 0 means all processors.
 
@@ -282,7 +283,7 @@ class PreparedScene:
         nearest triangles, the first counts.
 
         Args:
-            points: (..., 3) real numbers, world space; float64 is rounded to float32.
+            points: (..., 3) real numbers, world space, treated as those of locate().
             signed: also computes the sign of the distance, as locate() does.
             object: index into Scene.objects; None means all triangles of the scene together.
             threads: number of threads; 0 means all processors.
@@ -311,10 +312,10 @@ class PreparedScene:
         return self._solids[object]
 
 
-def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], tuple[int, ...]]:
+def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], tuple[int, ...]]:
     """Returns points as (n, 3), and their leading shape."""
     array = as_numbers(points, "points", 3)
-    return as_float32(array).reshape(-1, 3), array.shape[:-1]
+    return np.ascontiguousarray(array, np.float64).reshape(-1, 3), array.shape[:-1]
 
 
 def _rays(

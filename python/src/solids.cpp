@@ -11,13 +11,13 @@
 namespace microtrace::python {
 namespace {
 
-using Points = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Points = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
 template <class T>
 using Output = nb::ndarray<T, nb::c_contig, nb::device::cpu>;
 
-std::span<const Vec3> span_of(const Points& points) {
-  return {reinterpret_cast<const Vec3*>(points.data()), points.shape(0)};
+std::span<const DVec3> span_of(const Points& points) {
+  return {reinterpret_cast<const DVec3*>(points.data()), points.shape(0)};
 }
 
 template <class F>

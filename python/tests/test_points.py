@@ -54,6 +54,19 @@ def test_closest_point(ball, rng):
             getattr(ball.closest_point(points), name)
 
 
+def test_far_from_the_origin(ball, rng):
+    origin = np.array([6378137.25, -(2.0**25) + 0.125, 3.5])
+    scene = mt.Scene(objects=ball.scene.objects, origin=tuple(origin))
+    prepared = scene.prepare()
+    points = np.round(rng.uniform(-1.5, 1.5, size=(500, 3)) * 1024) / 1024  # sums are exact
+    assert np.array_equal(prepared.locate(points + origin), ball.locate(points))
+    far = prepared.closest_point(points + origin, signed=True)
+    near = ball.closest_point(points, signed=True)
+    assert np.array_equal(far.signed_distance, near.signed_distance)
+    assert np.array_equal(far.primitive, near.primitive)
+    assert np.array_equal(far.position, near.position + origin)
+
+
 def test_open_mesh():
     scene = mt.Scene()
     scene.add_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])

@@ -44,22 +44,58 @@ struct Solid::Impl {
   [[nodiscard]] Vec3 in_scene(const Vec3& p) const {
     return origin() == DVec3(0) ? p : Vec3(DVec3(p) - origin());
   }
+  [[nodiscard]] Vec3 in_scene(const DVec3& p) const { return Vec3(p - origin()); }
 
-  /// Calls f(i, locator, search, poll) for each point.
-  template <class F>
-  void for_each(std::size_t count, const QueryOptions& options, const F& f) const {
+  /// Calls f(i, p, locator, search, poll) for each point p in scene coordinates.
+  template <class Point, class F>
+  void for_each(std::span<const Point> points, const QueryOptions& options, const F& f) const {
     const FloatEnvironment environment;
     limiting_memory([&] {
-      for_each_run(count, kPointsOfRun, options,
+      for_each_run(points.size(), kPointsOfRun, options,
                    [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
                      Locator locator(target, selection);
                      NearestSearch search(target, selection);
                      for (std::uint64_t i = first; i < last; ++i) {
                        poll();
-                       f(i, locator, search, poll);
+                       f(i, in_scene(points[i]), locator, search, poll);
                      }
                    });
     });
+  }
+
+  template <class Point>
+  void locate(std::span<const Point> points, std::span<Location> locations,
+              const QueryOptions& options) const {
+    assert(points.size() == locations.size());
+    for_each(points, options,
+             [&](std::uint64_t i, const Vec3& p, Locator& locator, NearestSearch&, Poll& poll) {
+               locations[i] = locator.locate(p, poll);
+             });
+  }
+
+  template <class Point>
+  void nearest_points(std::span<const Point> points, std::span<std::optional<NearestPoint>> nearest,
+                      const QueryOptions& options) const {
+    assert(points.size() == nearest.size());
+    for_each(points, options,
+             [&](std::uint64_t i, const Vec3& p, Locator&, NearestSearch& search, Poll& poll) {
+               nearest[i] = search.nearest(p, poll);
+               if (nearest[i]) nearest[i]->p += origin();
+             });
+  }
+
+  template <class Point>
+  void signed_distances(std::span<const Point> points, std::span<double> distances,
+                        const QueryOptions& options) const {
+    assert(points.size() == distances.size());
+    for_each(
+        points, options,
+        [&](std::uint64_t i, const Vec3& p, Locator& locator, NearestSearch& search, Poll& poll) {
+          const auto nearest = search.nearest(p, poll);
+          distances[i] = nearest ? nearest->distance : std::numeric_limits<double>::infinity();
+          if (nearest && distances[i] != 0 && locator.locate(p, poll) == Location::inside)
+            distances[i] = -distances[i];
+        });
   }
 
   PreparedScene scene;
@@ -86,36 +122,34 @@ std::span<const OpenEdge> Solid::open_edges() const {
 
 void Solid::locate(std::span<const Vec3> points, std::span<Location> locations,
                    const QueryOptions& options) const {
-  assert(points.size() == locations.size());
-  impl_->for_each(points.size(), options,
-                  [&](std::uint64_t i, Locator& locator, NearestSearch&, Poll& poll) {
-                    locations[i] = locator.locate(impl_->in_scene(points[i]), poll);
-                  });
+  impl_->locate(points, locations, options);
+}
+
+void Solid::locate(std::span<const DVec3> points, std::span<Location> locations,
+                   const QueryOptions& options) const {
+  impl_->locate(points, locations, options);
 }
 
 void Solid::nearest_points(std::span<const Vec3> points,
                            std::span<std::optional<NearestPoint>> nearest,
                            const QueryOptions& options) const {
-  assert(points.size() == nearest.size());
-  impl_->for_each(points.size(), options,
-                  [&](std::uint64_t i, Locator&, NearestSearch& search, Poll& poll) {
-                    nearest[i] = search.nearest(impl_->in_scene(points[i]), poll);
-                    if (nearest[i]) nearest[i]->p += impl_->origin();
-                  });
+  impl_->nearest_points(points, nearest, options);
+}
+
+void Solid::nearest_points(std::span<const DVec3> points,
+                           std::span<std::optional<NearestPoint>> nearest,
+                           const QueryOptions& options) const {
+  impl_->nearest_points(points, nearest, options);
 }
 
 void Solid::signed_distances(std::span<const Vec3> points, std::span<double> distances,
                              const QueryOptions& options) const {
-  assert(points.size() == distances.size());
-  impl_->for_each(points.size(), options,
-                  [&](std::uint64_t i, Locator& locator, NearestSearch& search, Poll& poll) {
-                    const Vec3 p = impl_->in_scene(points[i]);
-                    const auto nearest = search.nearest(p, poll);
-                    distances[i] =
-                        nearest ? nearest->distance : std::numeric_limits<double>::infinity();
-                    if (nearest && distances[i] != 0 && locator.locate(p, poll) == Location::inside)
-                      distances[i] = -distances[i];
-                  });
+  impl_->signed_distances(points, distances, options);
+}
+
+void Solid::signed_distances(std::span<const DVec3> points, std::span<double> distances,
+                             const QueryOptions& options) const {
+  impl_->signed_distances(points, distances, options);
 }
 
 }  // namespace microtrace

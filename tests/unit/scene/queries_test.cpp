@@ -175,6 +175,24 @@ TEST(Solid, FindsNearestPoints) {
   EXPECT_EQ(found->barycentrics, DVec3(0.5, 0.25, 0.25));
 }
 
+TEST(Solid, KeepsThePrecisionOfPointsFarFromTheOrigin) {
+  Scene scene = queried_scene({cube(Vec3(0), 1)});
+  const DVec3 far(0x1p25 + 0.125, -0x1p24, 0.5);
+  scene.origin = far;
+  const Solid solid{PreparedScene(std::move(scene))};
+  const std::vector<DVec3> points{far + DVec3(0.25, 0.5, 0.5), far + DVec3(0, 0.5, 0.5),
+                                  far - DVec3(0.25, -0.5, -0.5)};
+  std::vector<Location> locations(3);
+  solid.locate(points, locations);
+  EXPECT_THAT(locations, ElementsAre(Location::inside, Location::boundary, Location::outside));
+  std::vector<std::optional<NearestPoint>> nearest(3);
+  solid.nearest_points(points, nearest);
+  for (const auto& each : nearest) EXPECT_EQ(each.value().p, far + DVec3(0, 0.5, 0.5));
+  std::vector<double> distances(3);
+  solid.signed_distances(points, distances);
+  EXPECT_THAT(distances, ElementsAre(-0.25, 0, 0.25));
+}
+
 TEST(Solid, FindsTheLowestOfEquallyNearTriangles) {
   // The query points are near a corner of five triangles, an edge, and a face that occurs three
   // times.
