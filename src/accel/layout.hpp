@@ -111,17 +111,17 @@ struct MeshTree {
 
 /// An instance in a tree over instances: a mesh's own tree and its place in the scene. See
 /// docs/exactness.md, "Instances".
-struct Instance {
+struct alignas(64) Instance {
   const MeshTree* mesh;
   const double* scene_from_mesh;  ///< three columns of the matrix and the translation
   std::uint32_t first_id;         ///< added to the numbers of the mesh's primitives
   std::uint32_t is_mirrored;      ///< 1 if front faces need another order of vertices, otherwise 0
   float mesh_from_scene[3][3];    ///< rows of the inverse matrix, without the translation
-  float row_max[3];               ///< upper bound of |component| for each row of the exact inverse
   /// Bounds the displacement of a ray that enters the instance, see InnerRay. Upper bounds of the
   /// part that does not depend on the ray.
   float reach;
 };
+static_assert(sizeof(Instance) == 64);  // a cache line
 
 /// The encoding of ChildRef. Bits 31-30 hold the kind: 0 for a node, 1 for a leaf of triangle
 /// blocks, 2 for a leaf of other bounded primitives, 3 for an instance. A node has its index in

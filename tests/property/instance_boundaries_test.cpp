@@ -55,10 +55,10 @@ TEST(InstanceBoundaries, HaveThePointsOfSplitTriangles) {
     mesh.placement = std::make_shared<const Placement>(glm::scale(DMat4(1), factors));
     OwnedMeshTree owned(mesh, {});
     split(owned, mesh);
-    const auto placed = build::make_instance(owned, mesh, 0);
-    ASSERT_TRUE(placed);
+    const auto box = build::instance_box(owned, mesh);
+    ASSERT_TRUE(box);
     Tree scene;
-    scene.instances.push_back(placed->instance);
+    scene.instances.push_back(build::make_instance(owned, mesh, 0, *box));
     scene.root = child_ref::kFirstInstance;
 
     // A point of the longest edge. If the edge passes above the origin, the point can be left of

@@ -47,17 +47,17 @@ MemoryAccount room_for_copies(const Primitives& primitives, const std::vector<bo
 Tree build_tree(const Primitives& primitives, BuildOptions options) {
   using namespace build;
   Tree tree;
-  std::vector<build::Box> boxes;  // of the instances
-  const std::vector<bool> is_instance = find_instances(primitives, options, tree, boxes);
-  const MemoryAccount room = room_for_copies(primitives, is_instance);
-  References references = gather(primitives, is_instance);
+  Instances instances(primitives, options, tree);
+  PageVector<Reference> placed = instances.take_references();
+  const MemoryAccount room = room_for_copies(primitives, instances.is_instance());
+  References references = gather(primitives, instances.is_instance());
   Duplicates duplicates;
   if (!options.keeps_duplicates) duplicates = Duplicates(references, primitives);
   PageVector<std::uint32_t>().swap(references.hashes);
   if (primitives.count() <= options.few) take_out_few(references);
-  WorkerPool pool(references.bounded.size() + boxes.size() < kWorthThreads ? 1 : options.threads);
+  WorkerPool pool(references.bounded.size() + placed.size() < kWorthThreads ? 1 : options.threads);
   if (const Tree* const previous = options.previous.get();
-      previous != nullptr && tree.instances.empty() && previous->instances.empty() &&
+      previous != nullptr && placed.empty() && previous->instances.empty() &&
       previous->duplicates == duplicates && previous->unbounded == references.unbounded) {
     if (std::optional<Tree> fitted =
             refitted(*previous, references, primitives, options.max_cost_growth, pool)) {
@@ -73,17 +73,15 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   tree.area = references.area;
   set_points_apart(references.bounded);
   if (!options.fast) presplit(references.bounded, primitives);
-  references.bounded.reserve(references.bounded.size() + boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    references.bounded.emplace_back(boxes[i], static_cast<PrimitiveId>(i), kInstanceWeight);
-  std::vector<build::Box>().swap(boxes);
+  references.bounded.insert(references.bounded.end(), placed.begin(), placed.end());
+  PageVector<Reference>().swap(placed);
   BinaryTree binary = build_binary_tree(std::move(references.bounded), references.triangle_weight,
                                         options.fast ? kBinsForPreview : kMaxBins, pool);
   if (binary.ids.empty()) {
     tree.nodes.push_back(empty_node());
     return tree;
   }
-  write_tree(binary, primitives, pool, tree);
+  write_tree(binary, primitives, instances, pool, tree);
   tree.bounds = bounds_of(binary.root.box);
   return tree;
 }

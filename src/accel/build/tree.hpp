@@ -66,10 +66,10 @@ struct Tree {
   std::vector<PrimitiveId> unbounded;
   std::vector<std::shared_ptr<const OwnedMeshTree>> meshes;  ///< the trees of instances
   /// Refer to `meshes` and to placements in the scene.
-  std::vector<Instance> instances;
-  Duplicates duplicates;  ///< triangles equal to one in the tree
-  ChildRef root = 0;      ///< a node without children if there are no leaves
-  Bounds bounds;          ///< bounds of all leaves
+  PageVector<Instance> instances;  ///< in the order of the leaves
+  Duplicates duplicates;           ///< triangles equal to one in the tree
+  ChildRef root = 0;               ///< a node without children if there are no leaves
+  Bounds bounds;                   ///< bounds of all leaves
 
   [[nodiscard]] bool has_leaves() const {
     return !blocks.empty() || !others.empty() || !instances.empty();

@@ -36,6 +36,13 @@ struct InnerRay {
 /// result of the tests overflows.
 constexpr float kLongestInnerDirection = 0x1p37F;
 
+/// Returns r_i for a row of the stored inverse, rounded up.
+inline float row_max(const float (&row)[3]) {
+  return greater(greater(__builtin_fabsf(row[0]), __builtin_fabsf(row[1])),
+                 __builtin_fabsf(row[2])) *
+         (1 + 0x1p-20F);
+}
+
 /// The origin of rays inside an instance, and the displacements h_i.
 struct InnerOrigin {
   float o[3], reach[3];
@@ -50,7 +57,7 @@ struct InnerOrigin {
     for (int i = 0; i < 3; ++i) {
       const float(&row)[3] = instance.mesh_from_scene[i];
       o[i] = row[0] * c[0] + row[1] * c[1] + row[2] * c[2];
-      reach[i] = instance.row_max[i] * sum;
+      reach[i] = row_max(row) * sum;
     }
   }
 };

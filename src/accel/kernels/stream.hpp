@@ -231,7 +231,6 @@ class StreamWalk {
         const char* const instance =
             reinterpret_cast<const char*>(tree_.instances + (child - child_ref::kFirstInstance));
         __builtin_prefetch(instance);
-        __builtin_prefetch(instance + 64);
         return;
       }
       const std::uintptr_t begins[2] = {reinterpret_cast<std::uintptr_t>(scope.nodes),

@@ -53,7 +53,7 @@ class Builder {
                       .arena = tree_.subtrees[i].nodes,
                       .bins = {}};
       costs[i] = build_alone(small[i], subtree);
-      release(node.begin, node.count);
+      release(node.begin, node.count());
     });
     auto next = costs.cbegin();
     plan_top(tree_.root, next);
@@ -71,7 +71,7 @@ class Builder {
   };
 
   [[nodiscard]] std::span<Reference> of(const Set& set) {
-    return std::span(references_).subspan(set.node->begin, set.node->count);
+    return std::span(references_).subspan(set.node->begin, set.node->count());
   }
 
   /// Splits the whole until each set is small enough for one thread.
@@ -83,7 +83,7 @@ class Builder {
     while (!open.empty()) {
       const Set set = open.back();
       open.pop_back();
-      if (set.node->count <= kSubtreeSize) {
+      if (set.node->count() <= kSubtreeSize) {
         small.push_back(set);
         continue;
       }
@@ -94,35 +94,32 @@ class Builder {
     return small;
   }
 
-  // Recomputes a set's boxes and weight.
+  // Computes a set's boxes, count and weight.
   static void summarize(std::span<const Reference> references, Set& set) {
-    set.node->box = set.centroids = {};
-    set.node->weight = 0;
+    Box box;
+    std::uint32_t weight = 0;
+    set.centroids = {};
     for (const Reference& r : references) {
-      set.node->box.include(r.box);
+      box.include(r.box);
       set.centroids.include(centroid(r.box));
-      set.node->weight += r.weight();
+      weight += r.weight();
     }
+    set.node->set(box, static_cast<std::uint32_t>(references.size()), weight);
   }
 
   Set whole() {
-    tree_.root.count = static_cast<std::uint32_t>(references_.size());
     Set set{.node = &tree_.root, .depth = 0, .centroids = {}};
-    summarize(of(set), set);
+    summarize(references_, set);
     return set;
   }
 
   // Creates the nodes of the two parts and sets all data that the split provides.
   static Halves halves(const Set& set, NodeArena& arena, const Split& split) {
     BinaryNode* pair = set.node->children = arena.allocate_pair();
-    pair[0].box = split.left;
+    pair[0].set(split.left, split.left_load.count, split.left_load.weight);
     pair[0].begin = set.node->begin;
-    pair[0].count = split.left_load.count;
-    pair[0].weight = split.left_load.weight;
-    pair[1].box = split.right;
-    pair[1].begin = set.node->begin + pair[0].count;
-    pair[1].count = split.right_load.count;
-    pair[1].weight = split.right_load.weight;
+    pair[1].set(split.right, split.right_load.count, split.right_load.weight);
+    pair[1].begin = set.node->begin + split.left_load.count;
     return {Set{.node = pair, .depth = set.depth + 1, .centroids = {}},
             Set{.node = pair + 1, .depth = set.depth + 1, .centroids = {}}};
   }
@@ -131,20 +128,20 @@ class Builder {
   // whose depth is near the limit.
   Halves halve(const Set& set, NodeArena& arena) {
     Split split;
-    split.left_load.count = set.node->count / 2;
-    split.right_load.count = set.node->count - split.left_load.count;
+    split.left_load.count = set.node->count() / 2;
+    split.right_load.count = set.node->count() - split.left_load.count;
     Halves sets = halves(set, arena, split);
     for (Set& half : sets) summarize(of(half), half);
     return sets;
   }
 
   [[nodiscard]] static bool is_deep(const Set& set) {
-    return set.depth + static_cast<unsigned>(std::bit_width(set.node->count)) >= kDepthLimit;
+    return set.depth + static_cast<unsigned>(std::bit_width(set.node->count())) >= kDepthLimit;
   }
 
   Halves split_alone(const Set& set, Subtree& subtree) {
     auto& [scratch, arena, bins] = subtree;
-    const BinMapping mapping(set.centroids, bins_for(set.node->count, max_bins_));
+    const BinMapping mapping(set.centroids, bins_for(set.node->count(), max_bins_));
     if (is_deep(set) || mapping.is_degenerate()) return halve(set, arena);
     bins.clear(mapping.bins());
     bins.add(of(set), mapping);
@@ -167,7 +164,7 @@ class Builder {
     if (!split.exists()) return halve(set, tree_.top);
     return with_centroids(
         halves(set, tree_.top, split),
-        partition_together(of(set), mapping, split, scratch.first(set.node->count), pool_));
+        partition_together(of(set), mapping, split, scratch.first(set.node->count()), pool_));
   }
 
   static Halves with_centroids(Halves sets, const CentroidBoxes& centroids) {
@@ -180,8 +177,8 @@ class Builder {
   // kDepthLimit.
   CollapseCosts build_alone(const Set& set, Subtree& subtree) {
     BinaryNode& node = *set.node;
-    const bool is_block = has_triangles(node, tree_.triangle_weight) && blocks(node.weight) == 1;
-    if (is_block || node.count <= 1) {
+    const bool is_block = has_triangles(node, tree_.triangle_weight) && blocks(node.weight()) == 1;
+    if (is_block || node.count() <= 1) {
       const auto leaf = of(set);
       for (std::size_t i = 0; i < leaf.size(); ++i) tree_.ids[node.begin + i] = leaf[i].id();
       return costs_of_leaf(node, model_);
@@ -193,7 +190,7 @@ class Builder {
 
   // Plans the nodes above the subtrees, whose costs `next` yields from left to right.
   CollapseCosts plan_top(BinaryNode& node, std::vector<CollapseCosts>::const_iterator& next) {
-    if (node.count <= kSubtreeSize) return *next++;
+    if (node.count() <= kSubtreeSize) return *next++;
     const CollapseCosts left = plan_top(node.children[0], next);
     return plan_collapse(node, model_, left, plan_top(node.children[1], next));
   }

@@ -5,6 +5,7 @@
 #include "accel/build/worker_pool.hpp"
 
 #include <array>
+#include <bit>
 #include <memory>
 
 namespace microtrace::build {
@@ -33,22 +34,32 @@ class CollapsePlan {
 /// A node's expected cost if it is collapsed to at most i + 1 subtrees.
 using CollapseCosts = std::array<float, 8>;
 
-/// A node with `count` references, whose ids start at BinaryTree::ids[begin].
+/// A node with references whose ids start at BinaryTree::ids[begin]. The fourth lanes of the box
+/// hold their number and the sum of their weights.
 struct BinaryNode {
   Box box;
-  std::uint32_t begin = 0, count = 0, weight = 0;
-  CollapsePlan plan;
   BinaryNode* children = nullptr;  ///< two consecutive nodes; null for a leaf
+  std::uint32_t begin = 0;
+  CollapsePlan plan;
+
+  void set(const Box& bounds, std::uint32_t count, std::uint32_t weight) {
+    box = bounds;
+    box.lo[3] = std::bit_cast<float>(count);
+    box.hi[3] = std::bit_cast<float>(weight);
+  }
+  [[nodiscard]] std::uint32_t count() const { return std::bit_cast<std::uint32_t>(box.lo[3]); }
+  [[nodiscard]] std::uint32_t weight() const { return std::bit_cast<std::uint32_t>(box.hi[3]); }
 };
-static_assert(sizeof(BinaryNode) == 64);  // large scenes have one for each four triangles
+// Large scenes have one for each four triangles, and two for each instance.
+static_assert(sizeof(BinaryNode) == 48);
 
 [[nodiscard]] inline bool is_instance(const BinaryNode& node) {
-  return node.count == 1 && node.weight == kInstanceWeight;
+  return node.count() == 1 && node.weight() == kInstanceWeight;
 }
 
 /// True if all primitives of a node are triangles, which have this weight.
 [[nodiscard]] inline bool has_triangles(const BinaryNode& node, std::uint32_t triangle_weight) {
-  return node.weight == node.count * triangle_weight;
+  return node.weight() == node.count() * triangle_weight;
 }
 
 /// Allocates nodes with stable addresses. Their memory returns to the system with the arena.

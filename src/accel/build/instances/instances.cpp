@@ -1,23 +1,24 @@
 #include "accel/build/instances/instances.hpp"
 
+#include "accel/build/binary/binary_tree.hpp"
 #include "accel/build/instances/mesh_tree.hpp"
-#include "scene/mesh/shared_meshes.hpp"
 
 #include <microtrace/error.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <unordered_map>
 #include <unordered_set>
 #include <variant>
 
 namespace microtrace::build {
 namespace {
 
-/// Upper bound of the memory for an instance: itself, its box, two references, two nodes of the
+/// Upper bound of the memory for an instance: itself, its reference and its id, two nodes of the
 /// binary tree, and its part of a node of the finished tree.
-constexpr std::uint64_t kBytesOfInstance = sizeof(Instance) + 32 + 64 + 128 + sizeof(WideNode) / 2;
+constexpr std::uint64_t kBytesOfInstance = sizeof(Instance) + sizeof(Reference) +
+                                           sizeof(PrimitiveId) + 2 * sizeof(BinaryNode) +
+                                           sizeof(WideNode) / 2;
 
 const Mesh* placed_mesh(const Object& object) {
   const auto* mesh = std::get_if<Mesh>(&object.shape);
@@ -34,33 +35,32 @@ std::shared_ptr<const OwnedMeshTree> tree_of(const Mesh& mesh, const BuildOption
 
 }  // namespace
 
-std::vector<bool> find_instances(const Primitives& primitives, const BuildOptions& options,
-                                 Tree& tree, std::vector<Box>& boxes) {
+Instances::Instances(const Primitives& primitives, const BuildOptions& options, Tree& tree)
+    : primitives_(primitives), is_instance_(primitives.scene().objects.size()) {
   const std::vector<Object>& objects = primitives.scene().objects;
-  std::vector<bool> is_instance(objects.size());
-  std::unordered_map<MeshKey, const OwnedMeshTree*, MeshKey::Hash> trees;
-  const auto placed = static_cast<std::size_t>(std::ranges::count_if(
-      objects, [](const Object& object) { return placed_mesh(object) != nullptr; }));
-  tree.instances.reserve(placed);
-  boxes.reserve(placed);
+  references_.reserve(static_cast<std::size_t>(std::ranges::count_if(
+      objects, [](const Object& object) { return placed_mesh(object) != nullptr; })));
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Mesh* const mesh = placed_mesh(objects[i]);
     if (mesh == nullptr) continue;
-    const OwnedMeshTree*& own = trees[MeshKey(*mesh)];
+    const OwnedMeshTree*& own = trees_[MeshKey(*mesh)];
     if (own == nullptr) own = tree.meshes.emplace_back(tree_of(*mesh, options)).get();
     if (!own->tree.has_leaves()) {
-      is_instance[i] = true;  // has no triangles with finite vertices
+      is_instance_[i] = true;  // has no triangles with finite vertices
       continue;
     }
-    const auto made = make_instance(*own, *mesh, primitives.first_id_of(i));
-    if (!made) continue;
-    is_instance[i] = true;
-    tree.instances.push_back(made->instance);
-    boxes.push_back(made->box);
+    const std::optional<Box> box = instance_box(*own, *mesh);
+    if (!box) continue;
+    is_instance_[i] = true;
+    references_.emplace_back(*box, static_cast<PrimitiveId>(i), kInstanceWeight);
   }
-  if (tree.instances.size() > child_ref::kMaxInstances)
+  if (references_.size() > child_ref::kMaxInstances)
     throw Error(ErrorKind::limit, "", "the scene has more than 2^30 instances; leave some out");
-  return is_instance;
+}
+
+Instance Instances::make(std::size_t object, const Box& box) const {
+  const Mesh& mesh = *placed_mesh(primitives_.scene().objects[object]);
+  return make_instance(*trees_.at(MeshKey(mesh)), mesh, primitives_.first_id_of(object), box);
 }
 
 std::uint64_t memory_to_build(const Primitives& primitives) {

@@ -40,43 +40,58 @@ Tree tree_of(const Mesh& mesh, const BuildOptions& options) {
                     {.fast = options.fast, .threads = options.threads, .keeps_duplicates = true});
 }
 
-/// Rows of the inverse of a matrix with these columns.
+/// Rows of an approximate inverse of a placement's matrix.
 struct Inverse {
   DVec3 rows[3];
-  DVec3 row_max;  ///< the greatest |component| of each row
+
+  explicit Inverse(const Placement& placement) {
+    const DVec3 a = placement.column(0), b = placement.column(1), c = placement.column(2);
+    rows[0] = glm::cross(b, c);
+    rows[1] = glm::cross(c, a);
+    rows[2] = glm::cross(a, b);
+    const double factor = 1 / glm::dot(a, rows[0]);
+    for (DVec3& row : rows) row *= factor;
+  }
+
+  /// True if all elements have errors below 2^-28 times the greatest of their rows.
+  [[nodiscard]] bool is_precise(const Placement& placement) const;
 };
 
-/// Returns the inverse if its elements have errors below 2^-28 times the greatest of their rows.
-std::optional<Inverse> inverse_of(const Placement& placement) {
-  const DVec3 a = placement.column(0), b = placement.column(1), c = placement.column(2);
-  Inverse inverse{.rows = {glm::cross(b, c), glm::cross(c, a), glm::cross(a, b)}, .row_max = {}};
-  const double determinant = glm::dot(a, inverse.rows[0]);
+bool Inverse::is_precise(const Placement& placement) const {
+  DVec3 row_max;  // the greatest |component| of each row
   for (int i = 0; i < 3; ++i) {
-    inverse.rows[i] /= determinant;
-    const DVec3 size = glm::abs(inverse.rows[i]);
-    inverse.row_max[i] = std::max({size.x, size.y, size.z});
-    const bool is_moderate =
-        inverse.row_max[i] <= kGreatestScale && inverse.row_max[i] >= 1 / kGreatestScale;
-    if (!is_moderate) return std::nullopt;
+    const DVec3 size = glm::abs(rows[i]);
+    row_max[i] = std::max({size.x, size.y, size.z});
+    const bool is_moderate = row_max[i] <= kGreatestScale && row_max[i] >= 1 / kGreatestScale;
+    if (!is_moderate) return false;
   }
   // With the residual R = I - B A, the exact inverse is the sum of R^k B. If |R| r <= theta r for
   // the row maxima r, its elements differ from B by at most theta / (1 - theta) r.
-  double theta = 0;
   for (int i = 0; i < 3; ++i) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
       const DVec3& column = placement.column(k);
-      const double residual = (i == k ? 1 : 0) - glm::dot(inverse.rows[i], column);
-      const double error = 0x1p-50 * (1 + glm::dot(glm::abs(inverse.rows[i]), glm::abs(column)));
-      sum += (std::abs(residual) + error) * inverse.row_max[k];
+      const double residual = (i == k ? 1 : 0) - glm::dot(rows[i], column);
+      const double error = 0x1p-50 * (1 + glm::dot(glm::abs(rows[i]), glm::abs(column)));
+      sum += (std::abs(residual) + error) * row_max[k];
     }
-    theta = std::max(theta, sum / inverse.row_max[i]);
+    if (!(sum <= 0x1p-29 * row_max[i])) return false;
   }
-  return theta <= 0x1p-29 ? std::optional(inverse) : std::nullopt;
+  return true;
 }
 
 float rounded_up(double x) {
   return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+/// Returns an instance without what make_instance() computes.
+Instance placed(const OwnedMeshTree& tree, const Mesh& mesh, PrimitiveId first_id) {
+  Instance instance{};
+  instance.mesh = &tree.view;
+  instance.scene_from_mesh = &mesh.placement->column(0).x;
+  instance.first_id = first_id;
+  instance.is_mirrored = mesh.placement->is_mirrored() ? 1 : 0;
+  return instance;
 }
 
 double greatest(const Vec3& lo, const Vec3& hi, int axis, double from = 0) {
@@ -103,43 +118,44 @@ bool OwnedMeshTree::is_of(const Mesh& mesh) const {
          ArrayKey(triangles) == ArrayKey(mesh.triangles);
 }
 
-std::optional<build::PlacedInstance> build::make_instance(const OwnedMeshTree& tree,
-                                                          const Mesh& mesh, PrimitiveId first_id) {
+std::optional<build::Box> build::instance_box(const OwnedMeshTree& tree, const Mesh& mesh) {
   const Placement& placement = *mesh.placement;
-  const std::optional<Inverse> inverse = inverse_of(placement);
-  if (!inverse) return std::nullopt;
-  PlacedInstance result{};
-  Instance& instance = result.instance;
-  instance.mesh = &tree.view;
-  instance.scene_from_mesh = &placement.column(0).x;
-  instance.first_id = first_id;
-  instance.is_mirrored = placement.is_mirrored() ? 1 : 0;
-  result.box = scene_box(instance, tree.tree, mesh);
-  if (!fits_blocks(result.box)) return std::nullopt;
-  const Bounds in_scene = bounds_of(result.box), &in_mesh = tree.tree.bounds;
-  double reach = 0, extent = 0;
+  if (!Inverse(placement).is_precise(placement)) return std::nullopt;
+  const Box box = scene_box(placed(tree, mesh, 0), tree.tree, mesh);
+  if (!fits_blocks(box)) return std::nullopt;
+  const Bounds in_scene = bounds_of(box), &in_mesh = tree.tree.bounds;
+  double extent = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(greatest(in_mesh.lo, in_mesh.hi, axis) <= kLargestInBlocks &&
+          std::abs(placement.column(3)[axis]) <= kLargestInBlocks))
+      return std::nullopt;
+    extent = std::max(extent, greatest(in_scene.lo, in_scene.hi, axis));
+  }
+  return extent < kLeastExtent ? std::nullopt : std::optional(box);
+}
+
+Instance build::make_instance(const OwnedMeshTree& tree, const Mesh& mesh, PrimitiveId first_id,
+                              const Box& box) {
+  const Placement& placement = *mesh.placement;
+  const Inverse inverse(placement);
+  const Bounds in_scene = bounds_of(box), &in_mesh = tree.tree.bounds;
+  double reach = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double t = placement.column(3)[axis];
     double size = std::abs(t);
-    if (!(greatest(in_mesh.lo, in_mesh.hi, axis) <= kLargestInBlocks &&
-          std::abs(t) <= kLargestInBlocks))
-      return std::nullopt;
     for (int k = 0; k < 3; ++k)
       size += std::abs(placement.column(k)[axis]) * greatest(in_mesh.lo, in_mesh.hi, k);
-    const double coordinate = greatest(in_scene.lo, in_scene.hi, axis);
-    extent = std::max(extent, coordinate);
     // The rounding of vertices, and the part of rho.
-    const double rounding = 1.01 * kUnit * coordinate + 0x1p-49 * size + 0x1p-140;
+    const double rounding =
+        1.01 * kUnit * greatest(in_scene.lo, in_scene.hi, axis) + 0x1p-49 * size + 0x1p-140;
     reach += 1.2 * rounding + 5 * kUnit * greatest(in_scene.lo, in_scene.hi, axis, t);
   }
-  if (extent < kLeastExtent) return std::nullopt;
+  Instance instance = placed(tree, mesh, first_id);
   instance.reach = rounded_up(reach * (1 + 0x1p-20));
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
-      instance.mesh_from_scene[i][k] = static_cast<float>(inverse->rows[i][k]);
-    instance.row_max[i] = rounded_up(inverse->row_max[i] * (1 + 0x1p-20));
-  }
-  return result;
+      instance.mesh_from_scene[i][k] = static_cast<float>(inverse.rows[i][k]);
+  return instance;
 }
 
 }  // namespace microtrace

@@ -31,17 +31,16 @@ struct OwnedMeshTree {
 
 namespace build {
 
-struct PlacedInstance {
-  Instance instance;
-  Box box;  ///< contains the transformed triangles
-};
+/// Returns the box of a placed mesh, which contains the transformed triangles. Nothing if the mesh
+/// can't be an instance: if the placement is singular or nearly so, if it scales by more than 2^16
+/// or less than 2^-16, if the result exceeds the range of blocks, or if all of its coordinates are
+/// below 2^-100.
+[[nodiscard]] std::optional<Box> instance_box(const OwnedMeshTree& tree, const Mesh& mesh);
 
-/// Returns the instance of a placed mesh. Nothing if the placement is singular or nearly so, if it
-/// scales by more than 2^16 or less than 2^-16, if the result exceeds the range of blocks, or if
-/// all of its coordinates are below 2^-100. The instance refers to `tree` and to the mesh's
-/// placement.
-[[nodiscard]] std::optional<PlacedInstance> make_instance(const OwnedMeshTree& tree,
-                                                          const Mesh& mesh, PrimitiveId first_id);
+/// Returns the instance of a placed mesh that has this instance_box(). It refers to `tree` and to
+/// the mesh's placement.
+[[nodiscard]] Instance make_instance(const OwnedMeshTree& tree, const Mesh& mesh,
+                                     PrimitiveId first_id, const Box& box);
 
 }  // namespace build
 }  // namespace microtrace

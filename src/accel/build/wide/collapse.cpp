@@ -26,12 +26,13 @@ float leaf_cost(const BinaryNode& node, const CollapseModel& model) {
   const float area = model.area(node.box);
   if (is_instance(node)) return area * kInstanceCost;
   const bool of_triangles = has_triangles(node, model.triangle_weight);
-  const bool of_one_kind = of_triangles || node.weight == node.count * std::uint64_t{kOtherWeight};
+  const bool of_one_kind =
+      of_triangles || node.weight() == node.count() * std::uint64_t{kOtherWeight};
   // More triangles would need too many blocks if they shared no vertices.
   const std::uint32_t most =
       child_ref::kMaxLeafCount * (of_triangles ? TriangleBlock::kUnshared : 1);
-  if (!of_one_kind || node.count > most) return std::numeric_limits<float>::infinity();
-  return area * kBlockCost * static_cast<float>(blocks(node.weight));
+  if (!of_one_kind || node.count() > most) return std::numeric_limits<float>::infinity();
+  return area * kBlockCost * static_cast<float>(blocks(node.weight()));
 }
 
 }  // namespace

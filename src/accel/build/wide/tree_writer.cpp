@@ -19,14 +19,15 @@ namespace {
 // Maximum number of references of a subtree that one thread writes.
 constexpr std::uint32_t kJobSize = 1U << 13U;
 
-// Positions in, or sizes of, the three arrays of a tree.
+// Positions in, or sizes of, the arrays of a tree.
 struct Places {
-  std::size_t nodes = 0, blocks = 0, others = 0;
+  std::size_t nodes = 0, blocks = 0, others = 0, instances = 0;
 
   Places& operator+=(const Places& b) {
     nodes += b.nodes;
     blocks += b.blocks;
     others += b.others;
+    instances += b.instances;
     return *this;
   }
 };
@@ -45,7 +46,8 @@ struct Cursor {
 
 class Writer {
  public:
-  Writer(const Primitives& primitives, Tree& tree) : primitives_(primitives), tree_(tree) {}
+  Writer(const Primitives& primitives, const Instances& instances, Tree& tree)
+      : primitives_(primitives), instances_(instances), tree_(tree) {}
 
   void write(BinaryTree& planned, WorkerPool& pool) {
     ids_ = planned.ids;
@@ -97,7 +99,7 @@ class Writer {
         Cursor cursor{.next = job.begin, .counts = filled[i].counts.data()};
         write_node(*job.node, job.slot, cursor);
         // The blocks take the memory of the ids and the nodes, which is released meanwhile.
-        release(job.node->begin, job.node->count);
+        release(job.node->begin, job.node->count());
         const std::size_t subtree = subtree_of(job, planned);
         if (--open[subtree] == 0) planned.subtrees[subtree].nodes = {};
       });
@@ -106,9 +108,9 @@ class Writer {
 
   // Returns the size of a leaf, with an upper bound of the number of blocks.
   [[nodiscard]] Places leaf_size(const BinaryNode& leaf) const {
-    if (is_instance(leaf)) return {};
-    if (!has_triangles(leaf, triangle_weight_)) return {.others = leaf.count};
-    return {.blocks = (leaf.count + TriangleBlock::kUnshared - 1) / TriangleBlock::kUnshared};
+    if (is_instance(leaf)) return {.instances = 1};
+    if (!has_triangles(leaf, triangle_weight_)) return {.others = leaf.count()};
+    return {.blocks = (leaf.count() + TriangleBlock::kUnshared - 1) / TriangleBlock::kUnshared};
   }
 
   [[nodiscard]] Places size_as_child(const BinaryNode& node) const {
@@ -132,13 +134,13 @@ class Writer {
   }
 
   static bool is_job(const BinaryNode& parent, const BinaryNode& child) {
-    return parent.count > kJobSize && child.count <= kJobSize;
+    return parent.count() > kJobSize && child.count() <= kJobSize;
   }
 
   // Collects the jobs in the order in which write_node visits them. Returns the size of everything
   // that is in no job.
   Places collect_jobs(const BinaryNode& node) {
-    if (node.count <= kJobSize) return size_below(node);
+    if (node.count() <= kJobSize) return size_below(node);
     Places size;
     for (const BinaryNode* child : WideChildren(node)) {
       size += size_as_child(*child);
@@ -155,6 +157,7 @@ class Writer {
     check(size.nodes <= child_ref::kMaxNodes && size.others <= child_ref::kMaxLeafEntries);
     tree_.nodes.resize(size.nodes);
     tree_.others.resize(size.others);
+    tree_.instances.resize(size.instances);
     tree_.blocks.reserve(size.blocks);  // pages that no blocks are written to take no memory
   }
 
@@ -194,6 +197,7 @@ class Writer {
         job.slot = slots[i];
         cursor.next.nodes += job.size.nodes;
         cursor.next.others += job.size.others;
+        cursor.next.instances += job.size.instances;
       } else {
         write_node(child, slots[i], cursor);
       }
@@ -202,10 +206,14 @@ class Writer {
 
   ChildRef write_leaf(const BinaryNode& leaf, Cursor& cursor) {
     const std::span<const PrimitiveId> ids = ids_of(leaf);
-    if (is_instance(leaf)) return child_ref::kFirstInstance + ids[0];
+    if (is_instance(leaf)) {
+      const std::size_t instance = cursor.next.instances++;
+      tree_.instances[instance] = instances_.make(ids[0], leaf.box);
+      return child_ref::kFirstInstance + static_cast<ChildRef>(instance);
+    }
     if (!has_triangles(leaf, triangle_weight_)) {
       std::ranges::copy(ids, tree_.others.data() + cursor.next.others);
-      return child_ref::kOthers | reference(cursor.next.others, leaf.count);
+      return child_ref::kOthers | reference(cursor.next.others, leaf.count());
     }
     if (cursor.counts != nullptr)
       return child_ref::kTriangles | reference(cursor.next.blocks, *cursor.counts++);
@@ -255,10 +263,11 @@ class Writer {
   }
 
   [[nodiscard]] std::span<const PrimitiveId> ids_of(const BinaryNode& leaf) const {
-    return ids_.subspan(leaf.begin, leaf.count);
+    return ids_.subspan(leaf.begin, leaf.count());
   }
 
   const Primitives& primitives_;
+  const Instances& instances_;
   Tree& tree_;
   std::span<const PrimitiveId> ids_;
   std::uint32_t triangle_weight_ = kTriangleWeight;
@@ -268,8 +277,9 @@ class Writer {
 
 }  // namespace
 
-void write_tree(BinaryTree& planned, const Primitives& primitives, WorkerPool& pool, Tree& tree) {
-  Writer(primitives, tree).write(planned, pool);
+void write_tree(BinaryTree& planned, const Primitives& primitives, const Instances& instances,
+                WorkerPool& pool, Tree& tree) {
+  Writer(primitives, instances, tree).write(planned, pool);
 }
 
 }  // namespace microtrace::build

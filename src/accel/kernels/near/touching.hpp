@@ -28,7 +28,7 @@ inline void enter(const Instance& instance, const ClosedBox& query, ClosedBox& i
     const float middle = row[0] * c[0] + row[1] * c[1] + row[2] * c[2];
     const float extent = __builtin_fabsf(row[0]) * half[0] + __builtin_fabsf(row[1]) * half[1] +
                          __builtin_fabsf(row[2]) * half[2];
-    const float margin = extent * (1 + 0x1p-20F) + instance.row_max[i] * reach;
+    const float margin = extent * (1 + 0x1p-20F) + row_max(row) * reach;
     // Finite, because infinite boxes overlap even unused slots. If the result is NaN, the box has
     // this largest extent.
     inner.lo[i] = greater(middle - margin, -__FLT_MAX__);
