@@ -32,13 +32,15 @@ class MICROTRACE_EXPORT Primitives {
 
   /// The index in Scene::objects of the object that contains the primitive.
   [[nodiscard]] std::size_t object_index(PrimitiveId id) const {
-    const ObjectRange& range = ranges_[id >> range_shift_];
-    return range.count == 1 ? range.first : find_object(range, id);
+    const std::uint32_t* const objects = &range_objects_[id >> range_shift_];
+    return objects[0] == objects[1] ? objects[0] : find_object(objects[0], objects[1], id);
   }
   /// The lowest PrimitiveId in the object that contains the primitive.
   [[nodiscard]] PrimitiveId first_id(PrimitiveId id) const { return first_ids_[object_index(id)]; }
   /// The lowest PrimitiveId in the object with this index.
   [[nodiscard]] PrimitiveId first_id_of(std::size_t object) const { return first_ids_[object]; }
+  /// The lowest PrimitiveId after those in the object with this index.
+  [[nodiscard]] PrimitiveId end_id_of(std::size_t object) const { return first_ids_[object + 1]; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Object& object(PrimitiveId id) const {
     return scene_->objects[object_index(id)];
@@ -92,19 +94,16 @@ class MICROTRACE_EXPORT Primitives {
   template <class T>
   static constexpr bool is_mesh = std::is_same_v<std::remove_cvref_t<T>, Mesh>;
 
-  /// The objects `first` to `first + count - 1`.
-  struct ObjectRange {
-    std::uint32_t first, count;
-  };
-
   void make_ranges();
-  [[nodiscard]] std::size_t find_object(const ObjectRange& range, PrimitiveId id) const;
+  /// Searches the objects from `first` to `last`.
+  [[nodiscard]] std::size_t find_object(std::uint32_t first, std::uint32_t last,
+                                        PrimitiveId id) const;
 
   const Scene* scene_;
-  std::vector<PrimitiveId> first_ids_;  // the lowest PrimitiveId of each object
+  std::vector<PrimitiveId> first_ids_;  // the lowest PrimitiveId of each object, and count_
   PrimitiveId count_ = 0;
-  // Range i contains the objects of the primitives [i << range_shift_, (i + 1) << range_shift_).
-  std::vector<ObjectRange> ranges_;
+  // Element i is the object of primitive i << range_shift_. The last element is the last object.
+  std::vector<std::uint32_t> range_objects_;
   unsigned range_shift_ = 0;
 };
 

@@ -15,26 +15,33 @@ namespace microtrace {
 Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const SurfaceFinder& finder,
                    SharedTables& tables)
     : scene_(scene), primitives_(primitives), finder_(finder), colors_(scene.textures.size()) {
-  entries_.reserve(scene.objects.size());
+  for (const Material& material : scene.materials)
+    for (const bool has_colors : {false, true}) entries_.push_back(entry_of(material, has_colors));
+  for (const bool has_colors : {false, true}) entries_.push_back(entry_of({}, has_colors));
+  const auto none = static_cast<std::uint32_t>(scene.materials.size());
+  entry_of_object_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     const Material& material = material_of(scene, object);
+    if (material.base_color_texture) make_map(material.base_color_texture->texture, tables);
     const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (material.base_color_texture) {
-      make_map(material.base_color_texture->texture, tables);
-    }
-    const bool is_opaque = material.alpha_mode == AlphaMode::opaque;
-    Entry entry{.color = Vec3(material.base_color),
-                .kind = Kind::plain,
-                .visibility = !is_opaque              ? Visibility::varies
-                              : material.double_sided ? Visibility::always
-                                                      : Visibility::in_front};
-    if (!is_opaque || material.base_color_texture || (mesh != nullptr && !mesh->colors.empty())) {
-      entry.kind = Kind::various;
-    } else if (!material.double_sided) {
-      entry.kind = Kind::one_sided;
-    }
-    entries_.push_back(entry);
+    const bool has_colors = mesh != nullptr && !mesh->colors.empty();
+    entry_of_object_.push_back(2 * object.material.value_or(none) + (has_colors ? 1 : 0));
   }
+}
+
+Surfaces::Entry Surfaces::entry_of(const Material& material, bool has_colors) {
+  const bool is_opaque = material.alpha_mode == AlphaMode::opaque;
+  Entry entry{.color = Vec3(material.base_color),
+              .kind = Kind::plain,
+              .visibility = !is_opaque              ? Visibility::varies
+                            : material.double_sided ? Visibility::always
+                                                    : Visibility::in_front};
+  if (!is_opaque || material.base_color_texture || has_colors) {
+    entry.kind = Kind::various;
+  } else if (!material.double_sided) {
+    entry.kind = Kind::one_sided;
+  }
+  return entry;
 }
 
 bool Surfaces::is_front(const Ray& ray, const Hit& hit) const {

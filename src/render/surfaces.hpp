@@ -46,7 +46,7 @@ class Surfaces {
 
   [[nodiscard]] const SurfaceFinder& finder() const { return finder_; }
   [[nodiscard]] Visibility visibility(std::size_t object) const {
-    return entries_[object].visibility;
+    return entry_at(object).visibility;
   }
 
   [[nodiscard]] BaseColor base_color(const World& world, const Ray& ray, const Hit& hit) const;
@@ -54,7 +54,7 @@ class Surfaces {
   /// A faster base_color() for surfaces without textures and vertex colors, which are the most
   /// common ones. Null for other surfaces.
   [[nodiscard]] const Vec3* plain_color(const Ray& ray, const Hit& hit) const {
-    const Entry& entry = entries_[primitives_.object_index(hit.id)];
+    const Entry& entry = entry_at(primitives_.object_index(hit.id));
     if (entry.kind == Kind::various) return nullptr;
     if (entry.kind == Kind::one_sided && !is_front(ray, hit)) return nullptr;
     return &entry.color;
@@ -63,7 +63,7 @@ class Surfaces {
   /// The base color at all hits of a primitive, if its surface also has two sides. Null for other
   /// surfaces.
   [[nodiscard]] const Vec3* plain_color(PrimitiveId id) const {
-    const Entry& entry = entries_[primitives_.object_index(id)];
+    const Entry& entry = entry_at(primitives_.object_index(id));
     return entry.kind == Kind::plain ? &entry.color : nullptr;
   }
 
@@ -86,6 +86,10 @@ class Surfaces {
     Visibility visibility;
   };
 
+  [[nodiscard]] const Entry& entry_at(std::size_t object) const {
+    return entries_[entry_of_object_[object]];
+  }
+  [[nodiscard]] static Entry entry_of(const Material& material, bool has_colors);
   void make_map(std::uint32_t index, SharedTables& tables);
   [[nodiscard]] bool is_front(const Ray& ray, const Hit& hit) const;
   [[nodiscard]] DVec4 texel(const World& world, const TextureUse& use, const Ray& ray,
@@ -94,7 +98,9 @@ class Surfaces {
   const Scene& scene_;
   const Primitives& primitives_;
   const SurfaceFinder& finder_;
-  std::vector<Entry> entries_;  // by object
+  // By material, then for objects without a material; each for meshes without and with colors.
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> entry_of_object_;
   // By texture; nothing for textures that are white or not needed.
   std::vector<std::optional<TextureMap>> colors_;
 };

@@ -13,6 +13,7 @@ constexpr std::size_t kFewPrimitives = 1024;
 }  // namespace
 
 Primitives::Primitives(const Scene& scene) : scene_(&scene) {
+  first_ids_.reserve(scene.objects.size() + 1);
   for (const Object& object : scene.objects) {
     first_ids_.push_back(count_);
     const std::size_t more = primitive_count(object.shape);
@@ -20,33 +21,31 @@ Primitives::Primitives(const Scene& scene) : scene_(&scene) {
       throw Error(ErrorKind::limit, "", "the scene has 2^32 primitives or more");
     count_ += static_cast<PrimitiveId>(more);
   }
+  first_ids_.push_back(count_);
   make_ranges();
 }
 
 void Primitives::make_ranges() {
   if (count_ == 0) return;
-  const std::size_t most = std::max(kFewPrimitives, first_ids_.size());
+  const std::size_t objects = scene_->objects.size();
+  const std::size_t most = std::max(kFewPrimitives, objects);
   while ((count_ - 1) >> range_shift_ >= most) ++range_shift_;
-  ranges_.resize(((count_ - 1) >> range_shift_) + std::size_t{1});
-  const PrimitiveId mask = (PrimitiveId{1} << range_shift_) - 1;
+  range_objects_.resize(((count_ - 1) >> range_shift_) + std::size_t{2});
   std::uint32_t object = 0;
-  const auto advance_to = [&](PrimitiveId id) {
-    while (object + 1 < first_ids_.size() && first_ids_[object + 1] <= id) ++object;
+  const auto object_of = [&](PrimitiveId id) {
+    while (object + 1 < objects && first_ids_[object + 1] <= id) ++object;
     return object;
   };
-  PrimitiveId id = 0;
-  for (ObjectRange& range : ranges_) {
-    range.first = advance_to(id);
-    range.count = advance_to(std::min(id | mask, count_ - 1)) - range.first + 1;
-    id += mask + 1;
-  }
+  for (std::size_t i = 0; i + 1 < range_objects_.size(); ++i)
+    range_objects_[i] = object_of(static_cast<PrimitiveId>(i << range_shift_));
+  range_objects_.back() = object_of(count_ - 1);
 }
 
-std::size_t Primitives::find_object(const ObjectRange& range, PrimitiveId id) const {
+std::size_t Primitives::find_object(std::uint32_t first, std::uint32_t last, PrimitiveId id) const {
   // Takes the last object that starts at or before `id`, because an empty mesh has the same first
   // id as the next object. Has no branches, because they would often be mispredicted.
-  const PrimitiveId* begin = first_ids_.data() + range.first;
-  for (std::uint32_t size = range.count; size > 1;) {
+  const PrimitiveId* begin = first_ids_.data() + first;
+  for (std::uint32_t size = last - first + 1; size > 1;) {
     const std::uint32_t half = size / 2;
     begin = begin[half] <= id ? begin + half : begin;
     size -= half;

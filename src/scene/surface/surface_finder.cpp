@@ -6,22 +6,30 @@
 
 #include <array>
 #include <bit>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <variant>
 
 namespace microtrace {
 namespace {
 
+bool has_uv(const Mesh& mesh) {
+  return !mesh.uv_sets.empty() && !mesh.uv_sets[0].empty();
+}
+
 MeshArrays arrays_of(const Mesh& mesh) {
   if (mesh.triangles.empty()) return {};
-  const bool has_uv = !mesh.uv_sets.empty() && !mesh.uv_sets[0].empty();
   return {.positions = mesh.positions.data(),
           .corners = mesh.triangles.data()->data(),
           .normals = mesh.normals.empty() ? nullptr : mesh.normals.data(),
-          .uv = has_uv ? mesh.uv_sets[0].data() : nullptr};
+          .uv = has_uv(mesh) ? mesh.uv_sets[0].data() : nullptr};
 }
 
 constexpr std::array<std::uint32_t, 3> kCorners{0, 1, 2};
+
+/// Stands for a placed mesh.
+constexpr std::uint32_t kPlaced = std::numeric_limits<std::uint32_t>::max();
 
 MeshArrays arrays_of(const Triangle& triangle) {
   static_assert(sizeof(Triangle) == 3 * sizeof(Vec3));
@@ -39,16 +47,17 @@ struct PlacedTriangle {
   Vec2 uv[3];
   MeshArrays arrays;
 
-  void set(const Mesh& mesh, const MeshArrays& from, PrimitiveId primitive) {
+  void set(const Mesh& mesh, PrimitiveId primitive) {
     const auto corners = mesh.corners(primitive);
+    const bool has_normals = !mesh.normals.empty(), has_set = has_uv(mesh);
     triangle = triangle_of(mesh, primitive);
     for (std::size_t k = 0; k < 3; ++k) {
-      if (from.normals != nullptr) normals[k] = mesh.normal(corners[k]);
-      if (from.uv != nullptr) uv[k] = from.uv[corners[k]];
+      if (has_normals) normals[k] = mesh.normal(corners[k]);
+      if (has_set) uv[k] = mesh.uv_sets[0][corners[k]];
     }
     arrays = arrays_of(triangle);
-    arrays.normals = from.normals == nullptr ? nullptr : normals;
-    arrays.uv = from.uv == nullptr ? nullptr : uv;
+    arrays.normals = has_normals ? normals : nullptr;
+    arrays.uv = has_set ? uv : nullptr;
   }
 };
 
@@ -70,55 +79,65 @@ void set(SurfaceBatch& batch, std::size_t i, const SurfaceInteraction& at) {
 
 SurfaceFinder::SurfaceFinder(const Primitives& primitives) : primitives_(primitives) {
   const std::vector<Object>& objects = primitives.scene().objects;
-  entries_.reserve(objects.size());
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const auto* mesh = std::get_if<Mesh>(&objects[i].shape);
-    entries_.push_back(
-        {.mesh = std::visit([](const auto& shape) { return arrays_of(shape); }, objects[i].shape),
-         .placed = mesh != nullptr && mesh->placement ? mesh : nullptr,
-         .first_id = primitives.first_id_of(i),
-         .count = static_cast<PrimitiveId>(primitive_count(objects[i].shape))});
+  mesh_of_object_.reserve(objects.size());
+  for (const Object& object : objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh != nullptr && mesh->placement) {
+      mesh_of_object_.push_back(kPlaced);
+      continue;
+    }
+    const MeshArrays arrays =
+        std::visit([](const auto& shape) { return arrays_of(shape); }, object.shape);
+    const bool has_triangles = arrays.positions != nullptr;
+    mesh_of_object_.push_back(has_triangles ? static_cast<std::uint32_t>(meshes_.size()) : 0);
+    if (has_triangles) meshes_.push_back(arrays);
   }
 }
 
 template <class Visit>
-void SurfaceFinder::for_each(Hits hits, const Visit& visit) const {
-  const Entry* entry = nullptr;
+void SurfaceFinder::for_each(const Primitives& primitives, Hits hits, const Visit& visit) {
+  std::size_t object = 0;
+  PrimitiveId first = 0, end = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i]) continue;
     const PrimitiveId id = hits[i]->id;
     // Most hits are on the same object as the previous hit.
-    if (entry == nullptr || id - entry->first_id >= entry->count)
-      entry = &entries_[primitives_.object_index(id)];
-    visit(i, *entry, id);
+    if (id < first || id >= end) {
+      object = primitives.object_index(id);
+      first = primitives.first_id_of(object);
+      end = primitives.end_id_of(object);
+    }
+    visit(i, object, id - first);
   }
 }
 
 void SurfaceFinder::find_ids(Hits hits, SurfaceBatch& batch) const {
-  for_each(hits, [&](std::size_t i, const Entry& entry, PrimitiveId id) {
-    batch.object[i] = static_cast<std::uint32_t>(&entry - entries_.data());
-    batch.primitive[i] = id - entry.first_id;
+  for_each(primitives_, hits, [&](std::size_t i, std::size_t object, PrimitiveId primitive) {
+    batch.object[i] = static_cast<std::uint32_t>(object);
+    batch.primitive[i] = primitive;
   });
 }
 
 void SurfaceFinder::find(std::span<const Ray> rays, Hits hits, const SurfaceParts& parts,
                          SurfaceBatch& batch, const SceneKernels& kernels) const {
+  const std::vector<Object>& objects = primitives_.scene().objects;
   std::uint64_t others = 0;
   batch.triangles = 0;
   std::unique_ptr<std::array<PlacedTriangle, kSurfaceLanes>> placed;  // made if there are any
-  for_each(hits, [&](std::size_t i, const Entry& entry, PrimitiveId id) {
-    batch.object[i] = static_cast<std::uint32_t>(&entry - entries_.data());
-    batch.primitive[i] = id - entry.first_id;
-    batch.mesh[i] = &entry.mesh;
-    if (entry.placed != nullptr) {
+  for_each(primitives_, hits, [&](std::size_t i, std::size_t object, PrimitiveId primitive) {
+    batch.object[i] = static_cast<std::uint32_t>(object);
+    batch.primitive[i] = primitive;
+    const std::uint32_t mesh = mesh_of_object_[object];
+    if (mesh == kPlaced) {
       if (!placed) placed = std::make_unique<std::array<PlacedTriangle, kSurfaceLanes>>();
-      (*placed)[i].set(*entry.placed, entry.mesh, batch.primitive[i]);
+      (*placed)[i].set(std::get<Mesh>(objects[object].shape), primitive);
       batch.mesh[i] = &(*placed)[i].arrays;
       batch.corners[i] = kCorners.data();
-    } else if (entry.mesh.corners != nullptr) {
-      batch.corners[i] = entry.mesh.corners + std::size_t{3} * batch.primitive[i];
+    } else {
+      batch.mesh[i] = &meshes_[mesh];
+      batch.corners[i] = meshes_[mesh].corners + std::size_t{3} * primitive;
     }
-    (entry.mesh.positions != nullptr ? batch.triangles : others) |= std::uint64_t{1} << i;
+    (mesh != 0 ? batch.triangles : others) |= std::uint64_t{1} << i;
   });
   if (batch.triangles != 0)
     others |= batch.triangles & ~kernels.find_surfaces(rays.data(), parts, batch);

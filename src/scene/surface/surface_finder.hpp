@@ -34,18 +34,15 @@ class SurfaceFinder {
             SurfaceBatch& batch) const;
 
  private:
-  struct Entry {
-    MeshArrays mesh;     // positions is null for shapes without triangles
-    const Mesh* placed;  // a placed mesh, whose arrays need a transform; otherwise null
-    PrimitiveId first_id, count;
-  };
-
-  /// Calls visit(i, entry of the hit object, primitive id) for each hit i.
+  /// Calls visit(i, index of the hit object, index of the primitive in it) for each hit i.
   template <class Visit>
-  void for_each(Hits hits, const Visit& visit) const;
+  static void for_each(const Primitives& primitives, Hits hits, const Visit& visit);
 
   const Primitives& primitives_;
-  std::vector<Entry> entries_;  // by object
+  // The meshes of the scene's objects. There may be millions of placed meshes, whose arrays need a
+  // transform; they have no elements. The first element stands for shapes without triangles.
+  std::vector<MeshArrays> meshes_{{}};
+  std::vector<std::uint32_t> mesh_of_object_;  // indices into meshes_, or kPlaced
 };
 
 }  // namespace microtrace

@@ -38,6 +38,7 @@ void expect_all_found(std::span<const std::size_t> sizes) {
       ASSERT_EQ(primitives.object_index(id), object) << "primitive " << id;
       ASSERT_EQ(primitives.first_id(id), primitives.first_id_of(object));
     }
+    ASSERT_EQ(primitives.end_id_of(object), id);
   }
   EXPECT_EQ(primitives.count(), id);
 }
