@@ -2,6 +2,7 @@
 /// The arrays of a scene, which own their values or refer to caller-provided memory.
 
 #include <microtrace/error.hpp>
+#include <microtrace/shared_handle.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -167,31 +168,7 @@ class Array {
     }
   };
 
-  /// A shared pointer of the size of a pointer, since a scene may have millions of arrays.
-  class Handle {
-   public:
-    explicit Handle(Values* values = nullptr) noexcept : values_(values) {}
-    Handle(const Handle& other) noexcept : values_(other.values_) {
-      if (values_ != nullptr) values_->users.fetch_add(1, std::memory_order_relaxed);
-    }
-    Handle(Handle&& other) noexcept : values_(std::exchange(other.values_, nullptr)) {}
-    Handle& operator=(Handle other) noexcept {
-      std::swap(values_, other.values_);
-      return *this;
-    }
-    ~Handle() {
-      if (values_ != nullptr && values_->users.fetch_sub(1, std::memory_order_acq_rel) == 1)
-        delete values_;
-    }
-    [[nodiscard]] bool is_only() const noexcept {
-      return values_->users.load(std::memory_order_acquire) == 1;
-    }
-    explicit operator bool() const noexcept { return values_ != nullptr; }
-    Values* operator->() const noexcept { return values_; }
-
-   private:
-    Values* values_;
-  };
+  using Handle = SharedHandle<Values>;
 
   Handle values_;
 };

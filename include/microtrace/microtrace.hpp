@@ -29,6 +29,7 @@
 #include <microtrace/material.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/memory.hpp>
+#include <microtrace/object_name.hpp>
 #include <microtrace/page_allocator.hpp>
 #include <microtrace/path.hpp>
 #include <microtrace/placement.hpp>
@@ -45,6 +46,7 @@
 #include <microtrace/scene_format.hpp>
 #include <microtrace/segments.hpp>
 #include <microtrace/shape.hpp>
+#include <microtrace/shared_handle.hpp>
 #include <microtrace/shutter.hpp>
 #include <microtrace/sidecar.hpp>
 #include <microtrace/spawn.hpp>

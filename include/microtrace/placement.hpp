@@ -30,7 +30,7 @@ class MICROTRACE_EXPORT Placement {
   [[nodiscard]] DVec3 direction(const DVec3& v) const;
   /// True if the transform reverses orientation. Two corners of each triangle are then exchanged,
   /// so that front faces remain front faces (glTF 2.0, section 3.7.4).
-  [[nodiscard]] bool is_mirrored() const { return is_mirrored_; }
+  [[nodiscard]] bool is_mirrored() const;
 
   /// Returns column k of M, or t for k = 3.
   [[nodiscard]] const DVec3& column(int k) const { return columns_[k]; }
@@ -38,7 +38,6 @@ class MICROTRACE_EXPORT Placement {
  private:
   // A scene may have millions of placements, so they hold only these.
   DVec3 columns_[4];
-  bool is_mirrored_;
 };
 
 }  // namespace microtrace

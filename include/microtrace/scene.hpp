@@ -7,6 +7,7 @@
 #include <microtrace/hit.hpp>
 #include <microtrace/light.hpp>
 #include <microtrace/material.hpp>
+#include <microtrace/object_name.hpp>
 #include <microtrace/shape.hpp>
 #include <microtrace/texture.hpp>
 
@@ -20,7 +21,7 @@ namespace microtrace {
 
 /// A shape and its material.
 struct Object {
-  std::string name;
+  ObjectName name;
   Shape shape;
   std::optional<std::uint32_t> material{};  ///< index into Scene::materials; nothing: Material{}
 };

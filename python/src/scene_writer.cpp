@@ -125,7 +125,7 @@ class Writer {
           std::visit([&](const auto& shape) { return shape_of(shape); }, object.shape);
     }
     arguments["material"] = object.material ? materials_[*object.material] : nb::none();
-    arguments["name"] = object.name;
+    arguments["name"] = object.name.str();
     return make("shapes", "Object", arguments);
   }
 

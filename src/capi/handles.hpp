@@ -9,12 +9,17 @@
 
 #include <cstddef>
 #include <cstring>
+#include <mutex>
 #include <string>
+#include <unordered_map>
 
 struct mt_scene {
   microtrace::PreparedScene prepared;
   microtrace::SceneFormat format;
   std::string warnings{};
+  mutable std::mutex names_mutex{};
+  /// The names of objects that callers have asked for. Elements keep their addresses.
+  mutable std::unordered_map<std::size_t, std::string> names{};
 };
 
 struct mt_film {

@@ -227,7 +227,11 @@ size_t mt_scene_object_count(const mt_scene* scene) {
 const char* mt_scene_object_name(const mt_scene* scene, size_t object) {
   if (scene == nullptr) return nullptr;
   const auto& objects = scene->prepared.scene().objects;
-  return object < objects.size() ? objects[object].name.c_str() : nullptr;
+  if (object >= objects.size()) return nullptr;
+  const std::scoped_lock lock(scene->names_mutex);
+  const auto [name, is_new] = scene->names.try_emplace(object);
+  if (is_new) name->second = objects[object].name.str();
+  return name->second.c_str();
 }
 
 const char* mt_scene_warnings(const mt_scene* scene) {

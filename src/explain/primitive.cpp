@@ -40,7 +40,7 @@ ExplainedPrimitive explain_primitive(const TracedRay& traced, PrimitiveId id, St
   const Object& content = primitives.scene().objects[object];
   return {.id = id,
           .object = object,
-          .name = content.name,
+          .name = content.name.str(),
           .primitive = id - primitives.first_id_of(object),
           .type = type_name(content.shape),
           .numbers = intersection_numbers(primitives, traced.ray, id),

@@ -117,6 +117,16 @@ class Bounds(ProgramTest):
             peaks.append(peak)
         self.assertLess((peaks[1] - peaks[0]) / 40_000, 2.5, peaks)
 
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "sanitizers need memory of their own")
+    def test_many_instances_take_little_memory(self):
+        peaks = []
+        for n in (50_000, 250_000):
+            code, said, peak = self.measured(self.write("instances", n), "--instances", "share", "--integrator", "flat",
+                                             "--size", "4x4")
+            self.assertEqual(code, 0, said)
+            peaks.append(peak)
+        self.assertLess((peaks[1] - peaks[0]) * 1024 / 200_000, 380, peaks)
+
     def test_textures_of_one_image_share_its_mip_maps(self):
         one, many = (self.counted(self.write("textures", n), "--integrator", "path", "--spp", "1") for n in (1, 128))
         self.assertLess(many - one, 2)

@@ -105,7 +105,7 @@ void ViewRenderer::check_objects() {
   };
   add(scene_->origin);
   for (const Object& object : scene_->objects) {
-    digest.add(object.name + '\n');
+    digest.add(object.name.str() + '\n');
     const auto* mesh = std::get_if<Mesh>(&object.shape);
     for (std::size_t i = 0; mesh != nullptr && i < mesh->positions.size(); ++i)
       add(mesh->position(i));

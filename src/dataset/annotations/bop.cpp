@@ -136,7 +136,7 @@ BopFrames::BopFrames(const Scene& scene) {
     for (const Vec3& point : mesh_points(object.shape)) {
       if (!is_finite(point))
         throw Error(ErrorKind::usage, "",
-                    "object " + object.name +
+                    "object " + object.name.str() +
                         " has vertices that are not finite, which BOP can't describe; move or "
                         "scale it, or choose other formats");
       low = glm::min(low, DVec3(point));

@@ -71,7 +71,7 @@ std::vector<std::string_view> lines_of(std::string_view part, std::size_t index)
 }  // namespace
 
 std::string category_name(CategoryBy by, const Scene& scene, const Object& object) {
-  std::string name = by == CategoryBy::object_name ? object.name
+  std::string name = by == CategoryBy::object_name ? object.name.str()
                      : object.material             ? scene.materials[*object.material].name
                                                    : std::string();
   return name.empty() ? "unnamed" : name;
@@ -106,7 +106,7 @@ std::string coco_part(const DrawnView& view, CategoryBy by, const Masks& visible
         .json_member("bbox", bbox(mask))
         .member("iscrowd", 0)
         .member("object", index)
-        .member("object_name", object.name);
+        .member("object_name", object.name.str());
     if (const Mask* whole = amodal != nullptr ? find_mask(*amodal, index) : nullptr) {
       annotation.json_member("amodal_segmentation", segmentation(*whole, view.size))
           .member("amodal_area", whole->area())

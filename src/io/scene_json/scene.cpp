@@ -131,7 +131,7 @@ void add_mesh(const JsonReader& json, const std::string& name,
   merge(out.scene, std::move(mesh.scene));
   for (std::size_t i = first; i < out.scene.objects.size(); ++i) {
     Object& object = out.scene.objects[i];
-    object.name = std::string(name).append("/").append(object.name);
+    object.name = std::string(name).append("/").append(object.name.str());
     if (material) object.material = material;
   }
   std::move(mesh.warnings.begin(), mesh.warnings.end(), std::back_inserter(out.warnings));

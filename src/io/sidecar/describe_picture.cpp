@@ -111,7 +111,7 @@ std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origi
 std::string object_text(const Object& object, std::size_t id, const io::SeenPixels* seen,
                         const DVec3& origin, ChunkedMeshes& chunks) {
   std::string text = "{\"id\": " + std::to_string(id);
-  text.append(", \"name\": ").append(quoted(object.name));
+  text.append(", \"name\": ").append(quoted(object.name.str()));
   text.append(", \"type\": \"").append(type_name(object.shape)).append("\"");
   text.append(", \"material\": ")
       .append(std::to_string(object.material ? *object.material + 1 : 0));

@@ -25,13 +25,16 @@ DVec3 product(const DVec3 (&columns)[3], const DVec3& v) {
 }  // namespace
 
 Placement::Placement(const DMat4& m)
-    : columns_{DVec3(m[0]), DVec3(m[1]), DVec3(m[2]), DVec3(m[3])},
-      is_mirrored_(glm::determinant(glm::dmat3(m)) < 0) {}
+    : columns_{DVec3(m[0]), DVec3(m[1]), DVec3(m[2]), DVec3(m[3])} {}
+
+bool Placement::is_mirrored() const {
+  return glm::determinant(glm::dmat3(columns_[0], columns_[1], columns_[2])) < 0;
+}
 
 DVec3 Placement::normal(const DVec3& n) const {
   // The matrix of cofactors is the inverse transpose times the determinant. It exists even for
   // singular matrices.
-  const double sign = is_mirrored_ ? -1 : 1;
+  const double sign = is_mirrored() ? -1 : 1;
   DVec3 cofactors[3];
   for (int k = 0; k < 3; ++k)
     cofactors[k] = sign * glm::cross(columns_[(k + 1) % 3], columns_[(k + 2) % 3]);

@@ -26,9 +26,11 @@ bool is_finite(const Mesh& mesh) {
 /// copies need less than about 150 MB, and rays through copies take less time.
 constexpr std::size_t kMostCopied = std::size_t{1} << 20;
 
-/// The size of an object, its placement, what its name has besides the path, and what
-/// make_names_unique() needs for it.
-constexpr std::size_t kBytesOfObject = sizeof(Object) + sizeof(Placement) + 128;
+/// The size of an object, its placement, and the hash of its name.
+constexpr std::size_t kBytesOfObject = sizeof(Object) + sizeof(Placement) + sizeof(std::size_t);
+
+/// The size of what a name has besides the path. Instances of a node share it.
+constexpr std::size_t kBytesOfName = 128;
 
 /// Number of placements in an allocation.
 constexpr std::size_t kPlacementsOfBlock = 64;
@@ -72,7 +74,8 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
   for_each_drawn(nodes, [&](const PlacedNode& placed, std::size_t times) {
     const std::size_t mesh = *model_.nodes[placed.node].mesh;
     objects += times * surfaces_[mesh].size();
-    bytes += times * surfaces_[mesh].size() * (kBytesOfObject + tree_.path(placed.node).size());
+    bytes += surfaces_[mesh].size() *
+             (times * kBytesOfObject + kBytesOfName + tree_.path(placed.node).size());
     for (const Surface& surface : surfaces_[mesh]) {
       primitives += times * sharing_.copies * surface.mesh.triangles.size();
       if (is_shared(placed.node, surface)) continue;
@@ -99,24 +102,24 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
 
 void ObjectMaker::add_mesh(const PlacedNode& placed) {
   if (!model_.nodes[placed.node].mesh || !placed.visible) return;
-  const std::string path = tree_.path(placed.node);
   const InstanceTransforms* instances = instances_.of(placed.node);
   if (instances != nullptr && poser_.has_skin(placed.node)) {
     asset_.warn(asset_.element("nodes", placed.node),
                 "has instances of a skinned mesh, which its joints place alike; one is drawn");
     instances = nullptr;
   }
-  if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, path);
-  for (std::size_t i = 0; i < instances->size(); ++i) {
-    add_mesh(placed.node, placed.world_from_node * (*instances)[i],
-             path + "[" + std::to_string(i) + "]");
-  }
+  const std::vector<ObjectName> own = names(placed.node, instances != nullptr);
+  if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, own, 0);
+  for (std::size_t i = 0; i < instances->size(); ++i)
+    add_mesh(placed.node, placed.world_from_node * (*instances)[i], own,
+             static_cast<std::uint32_t>(i));
 }
 
 void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
-                           const std::string& path) {
+                           const std::vector<ObjectName>& own, std::uint32_t instance) {
   const std::size_t index = *model_.nodes[node].mesh;
   std::shared_ptr<const Placement> placement;  // of all surfaces
+  auto name = own.begin();
   for (const Surface& surface : surfaces_[index]) {
     Mesh world;
     bool has_all = true;
@@ -134,7 +137,7 @@ void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
                   "has vertices that are not finite in the world; triangles with them are not "
                   "drawn");
     }
-    objects_.push_back({.name = name(path, index, surface),
+    objects_.push_back({.name = (name++)->with_number(instance),
                         .shape = std::move(world),
                         .material = surface.material});
   }
@@ -159,12 +162,19 @@ Element ObjectMaker::primitive(std::size_t mesh, const Surface& surface) const {
   return asset_.element("meshes", mesh).member("primitives").item(surface.number);
 }
 
-std::string ObjectMaker::name(const std::string& path, std::size_t mesh,
-                              const Surface& surface) const {
-  const Model::Mesh& source = model_.meshes[mesh];
-  std::string result = path + "/";
-  result += source.name.empty() ? "mesh" + std::to_string(mesh) : head(source.name, 64);
-  if (source.primitives.size() > 1) result += ":" + std::to_string(surface.number);
+std::vector<ObjectName> ObjectMaker::names(std::size_t node, bool has_instances) const {
+  const std::size_t index = *model_.nodes[node].mesh;
+  const Model::Mesh& mesh = model_.meshes[index];
+  const std::string path = tree_.path(node);
+  const std::string of_mesh =
+      "/" + (mesh.name.empty() ? "mesh" + std::to_string(index) : head(mesh.name, 64));
+  std::vector<ObjectName> result;
+  for (const Surface& surface : surfaces_[index]) {
+    const std::string own =
+        mesh.primitives.size() > 1 ? of_mesh + ":" + std::to_string(surface.number) : of_mesh;
+    result.push_back(has_instances ? ObjectName::numbered(path + "[", "]" + own)
+                                   : ObjectName(path + own));
+  }
   return result;
 }
 

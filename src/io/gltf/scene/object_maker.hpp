@@ -12,8 +12,8 @@
 #include <microtrace/io.hpp>
 #include <microtrace/scene.hpp>
 
+#include <cstdint>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -60,12 +60,15 @@ class ObjectMaker {
   /// True if the objects of a surface share its arrays.
   [[nodiscard]] bool is_shared(std::size_t node, const Surface& surface) const;
 
-  void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::string& path);
+  /// `own` are the names of the node's surfaces.
+  void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::vector<ObjectName>& own,
+                std::uint32_t instance);
   [[nodiscard]] std::shared_ptr<const Placement> placed(const DMat4& world_from_mesh);
   [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);
   [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const;
-  [[nodiscard]] std::string name(const std::string& path, std::size_t mesh,
-                                 const Surface& surface) const;
+  /// Returns the names of the objects of a node, one for each surface. They are numbered if the
+  /// node has instances.
+  [[nodiscard]] std::vector<ObjectName> names(std::size_t node, bool has_instances) const;
 
   Asset& asset_;
   const Model& model_;

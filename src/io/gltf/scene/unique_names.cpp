@@ -1,33 +1,27 @@
 #include "io/gltf/scene/unique_names.hpp"
 
+#include "base/memory_account.hpp"
+
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory_resource>
 #include <string_view>
-#include <tuple>
 #include <unordered_map>
 
 namespace microtrace::io::gltf {
 namespace {
 
-/// Compares millions of names in little memory.
-bool are_unique(std::span<std::string* const> names) {
-  struct Hashed {
-    std::size_t hash;
-    const std::string* name;
-    bool operator==(const Hashed& other) const {
-      return hash == other.hash && *name == *other.name;
-    }
-  };
-  std::vector<Hashed> hashed;
-  hashed.reserve(names.size());
-  for (const std::string* const name : names)
-    hashed.push_back({.hash = std::hash<std::string>{}(*name), .name = name});
-  std::ranges::sort(hashed, [](const Hashed& a, const Hashed& b) {
-    return std::tie(a.hash, *a.name) < std::tie(b.hash, *b.name);
-  });
-  return std::ranges::adjacent_find(hashed) == hashed.end();
+using NameOf = std::function<std::string(std::size_t)>;
+
+/// Compares millions of names in little memory. Equal hashes of different names are so rare that
+/// false is returned for them.
+bool are_unique(std::size_t count, const NameOf& name) {
+  std::vector<std::size_t> hashes(count);
+  for (std::size_t i = 0; i < count; ++i) hashes[i] = std::hash<std::string>{}(name(i));
+  std::ranges::sort(hashes);
+  return std::ranges::adjacent_find(hashes) == hashes.end();
 }
 
 class UniqueNames {
@@ -63,10 +57,18 @@ class UniqueNames {
 
 }  // namespace
 
-void make_unique(std::span<std::string* const> names) {
-  if (are_unique(names)) return;
-  UniqueNames unique(names.size());
-  for (std::string* const name : names) *name = unique.make(*name);
+void make_unique(std::size_t count, const NameOf& name,
+                 const std::function<void(std::size_t, const std::string&)>& rename) {
+  if (are_unique(count, name)) return;
+  constexpr std::uint64_t kBytesOfUse = 128;
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < count; ++i) bytes += kBytesOfUse + 2 * name(i).size();
+  const MemoryAccount room = temporary_memory(bytes, "the names of the scene");
+  UniqueNames unique(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string own = name(i), made = unique.make(own);
+    if (made != own) rename(i, made);
+  }
 }
 
 }  // namespace microtrace::io::gltf

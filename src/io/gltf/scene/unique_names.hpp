@@ -1,22 +1,30 @@
 #pragma once
 /// Makes the names of objects, cameras and lights unique.
 
-#include <span>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace microtrace::io::gltf {
 
-/// Numbers names that occur before. For example, the second "Cube" becomes "Cube (2)".
-void make_unique(std::span<std::string* const> names);
+/// Numbers names that occur before. For example, the second "Cube" becomes "Cube (2)". `name`
+/// returns the name with an index below `count`, and `rename` changes it.
+void make_unique(std::size_t count, const std::function<std::string(std::size_t)>& name,
+                 const std::function<void(std::size_t, const std::string&)>& rename);
 
 /// Does so for the members `name`.
 template <class Named>
 void make_names_unique(std::vector<Named>& all) {
-  std::vector<std::string*> names;
-  names.reserve(all.size());
-  for (Named& named : all) names.push_back(&named.name);
-  make_unique(names);
+  make_unique(
+      all.size(),
+      [&](std::size_t i) {
+        if constexpr (requires { all[i].name.str(); })
+          return all[i].name.str();
+        else
+          return all[i].name;
+      },
+      [&](std::size_t i, const std::string& name) { all[i].name = name; });
 }
 
 }  // namespace microtrace::io::gltf
