@@ -278,6 +278,15 @@ class Dataset(ProgramTest):
         self.assertEqual(alone.returncode, 0, alone.stderr)
         self.assertEqual((self.folder / "alone.exr").read_bytes(), self.contents("lens")["000000.exr"])
 
+    def test_cameras_are_checked_before_the_folder_is_made(self):
+        for options, message in ((["--focus", "2"], "has no lens"),
+                                 (["--views", "orbit:2", "--focus", "2"], "has no lens"),
+                                 (["--views", "orbit:2", "--aperture", "1e39", "--focus", "2"], "--aperture"),
+                                 (["--eye", "1,2,3", "--target", "1,2,3"], "equals the target"),
+                                 (["--eye", "0,5,0", "--target", "0,0,0"], "must not be parallel")):
+            self.assertIn(message, self.dataset(*options, *SMALL, "--integrator", "path", output="refused", code=2))
+            self.assertFalse((self.folder / "refused").exists(), options)
+
     def test_files_of_other_folders_are_read_again(self):
         mesh = {"type": "mesh", "file": "link.glb"}
         scene = {"version": 1, "objects": [mesh]}

@@ -119,15 +119,14 @@ void ViewRenderer::check_objects() {
 }
 
 void ViewRenderer::check_camera(const DatasetView& view, std::uint32_t index) const {
-  const auto* camera = std::get_if<Camera>(&view.camera);
-  if (std::holds_alternative<std::string>(view.camera)) {
-    const CameraOptions options = camera_options(view, index);
-    if (!options.camera.empty()) (void)choose_camera(*scene_, options, {});
-    const std::optional<std::size_t> known = camera_index(*scene_, options);
-    if (known) camera = &scene_->cameras[*known].camera;
-  }
-  // The cameras of other views frame the scene, so they are perspective.
-  if (camera != nullptr && writes(arguments_, DatasetFormat::bop))
+  std::optional<Camera> camera;
+  if (const auto* own = std::get_if<Camera>(&view.camera))
+    camera = *own;
+  else if (std::holds_alternative<std::string>(view.camera))
+    camera = choose_camera(*scene_, camera_options(view, index), {.width = 1, .height = 1});
+  else  // frames the scene, so it is perspective
+    (void)with_lens(PerspectiveCamera{}, camera_options(view, index));
+  if (camera && writes(arguments_, DatasetFormat::bop))
     require_bop_camera(*camera, place_of(index));
 }
 

@@ -39,8 +39,8 @@ class ViewRenderer {
   /// The loaded scene.
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 
-  /// Throws Error (usage) if the loaded scene lacks the camera that view number `index` names, or
-  /// if a requested format can't describe the camera.
+  /// Throws Error (usage) if the loaded scene lacks the camera that view number `index` names, if
+  /// the options don't fit the camera, or if a requested format can't describe it.
   void check_camera(const DatasetView& view, std::uint32_t index) const;
   /// Throws Error if the scene lacks the variant, or the file of the environment can't be opened.
   void check_look(const DatasetView& view, std::uint32_t index) const;

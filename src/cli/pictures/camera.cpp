@@ -30,9 +30,6 @@ PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options
   return camera;
 }
 
-namespace {
-
-/// Sets the lens and the focus of the options.
 Camera with_lens(Camera camera, const CameraOptions& options) {
   if (!options.lens_radius && !options.focus) return camera;
   auto* perspective = std::get_if<PerspectiveCamera>(&camera);
@@ -45,6 +42,8 @@ Camera with_lens(Camera camera, const CameraOptions& options) {
   if (const auto problem = validate(camera)) refuse_usage("--aperture: " + problem->message);
   return camera;
 }
+
+namespace {
 
 std::vector<std::string> camera_names(const Scene& scene) {
   std::vector<std::string> names;

@@ -19,6 +19,9 @@ namespace microtrace::cli {
 /// (usage).
 [[nodiscard]] PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options);
 
+/// Returns the camera with the lens and the focus of the options. Throws Error (usage).
+[[nodiscard]] Camera with_lens(Camera camera, const CameraOptions& options);
+
 /// Returns the index of the scene's camera that the options select: by default, the first. Nothing
 /// if there is none or if the options describe a camera.
 [[nodiscard]] std::optional<std::size_t> camera_index(const Scene& scene,
