@@ -417,6 +417,8 @@ class CommandLine(ProgramTest):
         for arguments, message in ((["--nothing-like-it"], "error: unknown option --nothing-like-it\n"),
                                    (["-size", "8x6"], "error: unknown option -size; did you mean --size?\n"),
                                    (["-y"], "error: unknown option -y\n"),
+                                   (["--nope", "--", "x.glb"], "error: unknown option --nope\n"),
+                                   (["--", "--size", "8x6"], 'error: unexpected argument "--size"\n'),
                                    (["b.json"], 'error: unexpected argument "b.json"\n'),
                                    (["b.json", "--stats=json"], 'error: unexpected argument "b.json"\n'),
                                    (["--stats", "json"], 'error: unexpected argument "json"; the value of --stats follows =, as in --stats=json\n'),

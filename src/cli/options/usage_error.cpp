@@ -91,12 +91,14 @@ std::string unexpected_argument(Command command, const CLI::App& app, const std:
 std::string message_of(Command command, const CLI::App& app, const CLI::ParseError& error) {
   // CLI11 reports missing arguments before unknown ones, but a mistyped option is often the reason
   // why an argument is missing.
-  const std::vector<std::string> left = app.remaining();
+  std::vector<std::string> left = app.remaining();
   const auto is_option = [](const std::string& text) {
     return text.size() > 1 && text[0] == '-' && numbers_of(text).empty();
   };
-  const auto option = std::ranges::find_if(left, is_option);
-  if (option != left.end()) return unknown_option(command, *option);
+  const auto mark = std::ranges::find(left, "--");  // what follows is no option
+  const auto option = std::find_if(left.begin(), mark, is_option);
+  if (option != mark) return unknown_option(command, *option);
+  if (mark != left.end()) left.erase(mark);
   if (!left.empty()) return unexpected_argument(command, app, left.front());
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     const std::string text = error.what();
