@@ -1,15 +1,27 @@
-"""Short texts for interactive sessions."""
+"""What the classes of scenes have in common."""
 
 from __future__ import annotations
 
 import dataclasses
+import difflib
 from typing import Any
 
 import numpy as np
 
 
 class Brief:
-    """Gives a dataclass a repr() that omits defaults and shows the shapes of arrays."""
+    """Gives a dataclass a repr() that omits defaults and shows the shapes of arrays. Refuses
+    attributes that aren't fields, because a misspelled one would have no effect."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        fields = getattr(self, "__dataclass_fields__", {})
+        # Classes that others derive may have attributes of their own.
+        is_ours = type(self).__module__.startswith(f"{__package__}.")
+        if is_ours and name not in fields and not hasattr(type(self), name):
+            near = difflib.get_close_matches(name, fields, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}{hint}")
+        object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
         shown = []

@@ -51,6 +51,24 @@ def test_errors_name_paths_that_are_not_utf_8(tmp_path):
         mt.load(os.fsdecode(path))
 
 
+def test_misspelled_attributes_are_refused():
+    material = mt.Material()
+    with pytest.raises(AttributeError, match="no attribute 'roughness'; did you mean 'roughness_"):
+        material.roughness = 0.2
+    with pytest.raises(AttributeError, match="PerspectiveCamera has no attribute 'xyz'$"):
+        mt.PerspectiveCamera().xyz = 1
+    material.roughness_factor = 0.2
+
+    class Labeled(mt.Object):
+        pass
+
+    labeled = Labeled(mt.Sphere((0, 0, 0), 1))
+    labeled.label = 7
+    for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+        again = pickle.loads(pickle.dumps(material, protocol))
+        assert again.roughness_factor == 0.2
+
+
 def test_times_must_be_numbers():
     with pytest.raises(mt.UsageError, match="time"):
         mt.load(SCENES / "gltf" / "moving.glb", time=float("nan"))
