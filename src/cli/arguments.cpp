@@ -1,7 +1,7 @@
 #include "cli/arguments.hpp"
 
+#include "base/counted.hpp"
 #include "cli/options/applicable.hpp"
-#include "cli/report/counted.hpp"
 
 #include <microtrace/aov.hpp>
 #include <microtrace/defaults.hpp>

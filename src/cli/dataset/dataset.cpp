@@ -1,10 +1,10 @@
 #include "cli/dataset/dataset.hpp"
 
+#include "base/counted.hpp"
 #include "base/printable.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/pictures/render_picture.hpp"
-#include "cli/report/counted.hpp"
 
 #include <microtrace/dataset.hpp>
 #include <microtrace/read_files.hpp>

@@ -1,9 +1,9 @@
+#include "base/counted.hpp"
 #include "base/printable.hpp"
 #include "cli/dataset/dataset.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/dataset/view_renderer.hpp"
 #include "cli/options/parse.hpp"
-#include "cli/report/counted.hpp"
 #include "cli/temporary_folder.hpp"
 
 #include <microtrace/dataset.hpp>

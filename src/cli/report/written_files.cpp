@@ -1,8 +1,8 @@
 #include "cli/report/written_files.hpp"
 
+#include "base/counted.hpp"
 #include "base/printable.hpp"
 #include "cli/options/option_value.hpp"
-#include "cli/report/counted.hpp"
 
 #include <cstdio>
 #include <string>

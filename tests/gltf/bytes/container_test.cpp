@@ -60,7 +60,7 @@ TEST(GltfContainer, ErrorsInABinaryFileNameItsJsonChunk) {
 
 TEST(GltfContainer, TrailingBytesAreIgnoredWithAWarning) {
   EXPECT_THAT(texts(load(cube().glb() + "xyz").warnings),
-              testing::ElementsAre(": 3 bytes after the end of the GLB file are ignored"));
+              testing::ElementsAre(": the GLB data is followed by 3 bytes without effect"));
 }
 
 TEST(GltfContainer, ZeroBytesAfterTheJsonGiveAWarning) {

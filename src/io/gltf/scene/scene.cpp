@@ -1,5 +1,6 @@
 #include "io/gltf/scene/scene.hpp"
 
+#include "base/counted.hpp"
 #include "base/memory_account.hpp"
 #include "io/gltf/animation/animations.hpp"
 #include "io/gltf/bytes/accessors.hpp"
@@ -94,8 +95,8 @@ struct GltfFile::Content {
       asset.tolerate(asset.root(), "the JSON chunk of the GLB file is padded with zero bytes");
     }
     if (container.extra_bytes != 0) {
-      asset.warn(asset.root(), std::to_string(container.extra_bytes) +
-                                   " bytes after the end of the GLB file are ignored");
+      asset.warn(asset.root(), "the GLB data is followed by " +
+                                   counted(container.extra_bytes, "byte") + " without effect");
     }
     clock.lap(&LoadTimes::bake);
   }
