@@ -73,8 +73,8 @@ TEST_F(MeshObject, IsPlacedNamedAndColored) {
   for (std::size_t i = 0; i < half; ++i) {
     const Object& plain = scene.objects[i];
     const Object& moved = scene.objects[half + i];
-    EXPECT_THAT(plain.name, StartsWith("a/"));
-    EXPECT_EQ(moved.name, "objects/1/" + plain.name.substr(2));
+    EXPECT_THAT(plain.name.str(), StartsWith("a/"));
+    EXPECT_EQ(moved.name, "objects/1/" + plain.name.str().substr(2));
     EXPECT_EQ(material_of(scene, moved).base_color, Vec4(0, 0.5F, 1, 1));
     const Mesh& a = std::get<Mesh>(plain.shape);
     const Mesh& b = std::get<Mesh>(moved.shape);

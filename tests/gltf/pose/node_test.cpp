@@ -156,7 +156,7 @@ TEST(GltfNode, ObjectsAreInTreeOrderWithUniqueNames) {
                          {{"name", "a/b"}, {"mesh", 0}}};
   asset.json["scenes"][0]["nodes"] = {3, 0};
   std::vector<std::string> names;
-  for (const Object& object : load(asset).scene.objects) names.push_back(object.name);
+  for (const Object& object : load(asset).scene.objects) names.push_back(object.name.str());
   EXPECT_THAT(names, ElementsAre("a/b/leaf", "a/leaf", "a/b/leaf (2)", "a/b/leaf (3)"));
 }
 
@@ -184,7 +184,7 @@ TEST(GltfNode, ReadsDeepTrees) {
   asset.json["nodes"] = nodes;
   const LoadedScene loaded = load(asset);
   EXPECT_EQ(first_object(loaded)[0][0], Vec3(kDepth, 0, 0));
-  EXPECT_LE(loaded.scene.objects[0].name.size(), 300U);
+  EXPECT_LE(loaded.scene.objects[0].name.str().size(), 300U);
 }
 
 }  // namespace
