@@ -93,8 +93,15 @@ TEST_P(ShadingKernelsTest, FlatTrianglesHaveTheBitsOfOtherTriangles) {
           row.corners[corner][axis] = lanes.corners[corner][axis][i];
       }
     }
+    for (int i = 0; i < kShadingLanes; ++i) {
+      for (auto* vectors : {&lanes.p, &lanes.n, &lanes.ns}) put(*vectors, i, random.vector());
+      lanes.is_sure[i] = lanes.distance[i] = lanes.from_behind[i] = random.number();
+    }
     const HitLanes before = lanes;
-    for (auto& corner : lanes.corners) put(corner, 1, Vec3(7));
+    for (int i = 0; i < kShadingLanes; ++i) {
+      for (auto& corner : lanes.corners)
+        if (flat.rows[i] != 0) put(corner, i, Vec3(7));
+    }
     GetParam()->find_flat_points(table.data(), flat, lanes);
     for (int i = 0; i < kShadingLanes; ++i) {
       const bool is_flat = flat.rows[i] != 0;
@@ -105,9 +112,9 @@ TEST_P(ShadingKernelsTest, FlatTrianglesHaveTheBitsOfOtherTriangles) {
       expect_bits(lanes.ns, right.ns, i, "ns");
       expect_bits(lanes.distance[i], right.distance[i], "distance");
       expect_bits(lanes.from_behind[i], right.from_behind[i], "from_behind");
-      if (!is_flat) continue;
       for (int corner = 0; corner < 3; ++corner)
         expect_bits(lanes.corners[corner], right.corners[corner], i, "corners");
+      if (!is_flat) continue;
       EXPECT_EQ(flat.surfaces[i], static_cast<std::uint32_t>(i));
       EXPECT_EQ(flat.simple >> i & 1U, i & 1U);
       EXPECT_EQ(flat.with_back >> i & 1U, i >> 1 & 1U);
