@@ -62,10 +62,10 @@ class Collector {
 
   /// Adds the triangles of a leaf if all are large. Returns false if they are not.
   bool takes(ChildRef leaf) {
-    const auto [begin, end] = entries_of(leaf);
+    const auto blocks = entries_of(leaf);
     const auto each = [&](const auto& f) {
-      for (std::size_t slot = std::size_t{begin} * kWidth; slot < std::size_t{end} * kWidth;
-           ++slot) {
+      for (std::size_t slot = std::size_t{blocks.begin} * kWidth;
+           slot < std::size_t{blocks.end} * kWidth; ++slot) {
         if (is_used(tree_.blocks[slot / kWidth], slot % kWidth) && !f(slot)) return false;
       }
       return true;
