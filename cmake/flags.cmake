@@ -10,8 +10,9 @@ target_compile_options(microtrace_flags INTERFACE
   # and can't vectorize conditional expressions.
   -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # Disables GCC's false warning on "text" + std::string (GCC bug 105651).
-  target_compile_options(microtrace_flags INTERFACE -Wno-restrict)
+  # Disables GCC's false warnings on "text" + std::string (GCC bug 105651), and on the members that a std::variant doesn't
+  # hold.
+  target_compile_options(microtrace_flags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
 if(MICROTRACE_FUZZ)
   target_compile_options(microtrace_flags INTERFACE -fsanitize=fuzzer-no-link)

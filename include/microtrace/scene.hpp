@@ -21,7 +21,7 @@ namespace microtrace {
 
 /// A shape and its material.
 struct Object {
-  ObjectName name;
+  ObjectName name{};
   Shape shape;
   std::optional<std::uint32_t> material{};  ///< index into Scene::materials; nothing: Material{}
 };

@@ -118,8 +118,8 @@ TEST(Path, PathsBetweenWhiteSurfacesEnd) {
   scene.objects.push_back({.name = "room", .shape = Sphere{{0, 0, 0}, 1}, .material = 0});
   scene.lights.push_back({.name = "lamp", .light = PointLight{.position = {0, 0.5F, 0}}});
   const PathIntegrator path({.max_depth = 65536});
-  render(scene, PerspectiveCamera{}, {.width = 16, .height = 16},
-         {.integrator = &path, .samples = 4});
+  (void)render(scene, PerspectiveCamera{}, {.width = 16, .height = 16},
+               {.integrator = &path, .samples = 4});
   const RayCounts rays = path.ray_counts();
   EXPECT_GT(rays.path.rays, 20 * rays.camera.rays);
   EXPECT_LT(rays.path.rays, 200 * rays.camera.rays);
