@@ -2,6 +2,9 @@
 
 #include <microtrace/page_allocator.hpp>
 
+#include <cstdint>
+#include <limits>
+
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -9,27 +12,39 @@
 namespace microtrace {
 namespace {
 
-std::align_val_t alignment_of(std::size_t bytes) {
-  return std::align_val_t{bytes >= kHugePage ? kHugePage : std::size_t{64}};
+#ifdef __linux__
+std::size_t whole_pages(std::size_t bytes) {
+  if (bytes > std::numeric_limits<std::size_t>::max() - 2 * kHugePage) throw std::bad_alloc();
+  return (bytes + kHugePage - 1) / kHugePage * kHugePage;
 }
+#endif
 
 }  // namespace
 
 void* allocate_pages(std::size_t bytes) {
-  if (bytes < kHugePage) return ::operator new(bytes, alignment_of(bytes));
-  // A last page that the array fills only in part is a huge page too if it is allocated whole.
-  const std::size_t last = bytes % kHugePage,
-                    whole = last == 0 ? bytes : bytes + (kHugePage - last);
-  if (whole < bytes) throw std::bad_alloc();
-  void* const p = ::operator new(whole, alignment_of(whole));
+  if (bytes < kHugePage) return ::operator new (bytes, std::align_val_t{64});
 #ifdef __linux__
-  madvise(p, whole, MADV_HUGEPAGE);
+  // Maps more, to cut out a range that begins at a huge page. A last page that the array fills only
+  // in part is a huge page too if it is mapped whole.
+  const std::size_t whole = whole_pages(bytes), more = whole + kHugePage;
+  auto* const p = static_cast<std::byte*>(map_pages(more));
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(p) % kHugePage;
+  if (before > 0) unmap_pages(p, before);
+  if (before < kHugePage) unmap_pages(p + before + whole, kHugePage - before);
+  madvise(p + before, whole, MADV_HUGEPAGE);
+  return p + before;
+#else
+  return ::operator new (bytes, std::align_val_t{kHugePage});
 #endif
-  return p;
 }
 
 void release_pages(void* p, std::size_t bytes) noexcept {
-  ::operator delete(p, alignment_of(bytes));
+  if (bytes < kHugePage) return ::operator delete (p, std::align_val_t{64});
+#ifdef __linux__
+  unmap_pages(p, whole_pages(bytes));
+#else
+  ::operator delete (p, std::align_val_t{kHugePage});
+#endif
 }
 
 void* map_pages(std::size_t bytes) {
