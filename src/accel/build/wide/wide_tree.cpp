@@ -14,13 +14,16 @@ float squared_length(const Vec3& v) {
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
-// Rotates the vertices so that the first one is opposite the longest edge.
+// Rotates the vertices so that the first one is opposite the longest edge. Has no branches, because
+// they would often be mispredicted.
 Triangle turned(const Triangle& t) {
   const float ab = squared_length(t.b - t.a), bc = squared_length(t.c - t.b),
               ca = squared_length(t.a - t.c);
-  if (ca > bc && ca >= ab) return {t.b, t.c, t.a};
-  if (ab > bc) return {t.c, t.a, t.b};
-  return t;
+  const auto is_ca = static_cast<unsigned>(ca > bc) & static_cast<unsigned>(ca >= ab);
+  const auto is_ab = static_cast<unsigned>(ab > bc) & (is_ca ^ 1U);
+  const unsigned first = is_ca + 2 * is_ab;
+  const std::array<Vec3, 5> vertices{t.a, t.b, t.c, t.a, t.b};
+  return {vertices[first], vertices[first + 1], vertices[first + 2]};
 }
 
 }  // namespace
@@ -90,15 +93,22 @@ bool BlockFiller::add(PrimitiveId id, const Triangle& unturned) {
 }
 
 unsigned BlockFiller::find(const Vec3& vertex) const {
-  const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(vertex);
-  const auto is_at = [&](unsigned i) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (std::bit_cast<std::uint32_t>(block_.vertices[axis][i]) != bits[axis]) return false;
-    return true;
-  };
-  unsigned i = 0;
-  while (i < vertices_ && !is_at(i)) ++i;
-  return i;
+  const auto bits = std::bit_cast<std::array<std::int32_t, 3>>(vertex);
+  Int4 bit{1, 2, 4, 8}, found{};  // without a branch, which would be unpredictable
+  for (unsigned first = 0; first < TriangleBlock::kVertices; first += 4) {
+    Int4 is_here = bit;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Int4 in_block;
+      std::memcpy(&in_block, &block_.vertices[axis][first], sizeof in_block);
+      is_here &= in_block == bits[axis];
+    }
+    found |= is_here;
+    bit <<= 4;
+  }
+  // Unused vertices don't count.
+  const auto all =
+      static_cast<unsigned>(found[0] | found[1] | found[2] | found[3]) | 1U << vertices_;
+  return static_cast<unsigned>(std::countr_zero(all));
 }
 
 bool have_same_vertices(const TriangleBlock& a, const TriangleBlock& b) {
