@@ -4,6 +4,7 @@
 #include <microtrace/math.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include <glm/common.hpp>
@@ -33,7 +34,14 @@ class AreaMeasure {
   /// area.
   [[nodiscard]] float operator()(const Box& b) const {
     const Float4 e = half_extent(b) * splat(scale_);
-    return e[0] * e[1] + (e[0] + e[1]) * e[2] + 0x1p-24F * (e[0] + e[1] + e[2]);
+    return measure(e[0], e[1], e[2]);
+  }
+
+  /// Returns the measures of three boxes in the first three lanes.
+  [[nodiscard]] Float4 operator()(const std::array<Box, 3>& boxes) const {
+    const Float4 a = half_extent(boxes[0]), b = half_extent(boxes[1]), c = half_extent(boxes[2]);
+    const Float4 x{a[0], b[0], c[0], 0}, y{a[1], b[1], c[1], 0}, z{a[2], b[2], c[2], 0};
+    return measure(x * splat(scale_), y * splat(scale_), z * splat(scale_));
   }
 
   /// Returns, in the same unit, the limit of the total area of the boxes around a triangle's pieces
@@ -45,6 +53,11 @@ class AreaMeasure {
   }
 
  private:
+  template <class T>
+  [[nodiscard]] static T measure(T x, T y, T z) {
+    return x * y + (x + y) * z + 0x1p-24F * (x + y + z);
+  }
+
   float scale_ = 0;
 };
 

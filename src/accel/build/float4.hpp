@@ -10,6 +10,7 @@ namespace microtrace::build {
 
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
+using UInt4 = std::uint32_t __attribute__((vector_size(16)));
 
 [[nodiscard]] inline Float4 min(Float4 a, Float4 b) {
   return a < b ? a : b;

@@ -6,6 +6,7 @@
 #include "accel/build/area.hpp"
 #include "accel/build/references/reference.hpp"
 
+#include <array>
 #include <span>
 
 namespace microtrace::build {
@@ -73,13 +74,19 @@ class Bins {
   void add(std::span<const Reference> references, const BinMapping& mapping);
   void add(const Bins& other, int bins);
   [[nodiscard]] Split best_split(int bins, const AreaMeasure& area) const;
-  [[nodiscard]] Load load_up_to(int axis, int last_bin) const;
 
  private:
-  void try_axis(int axis, int bins, const AreaMeasure& area, Split& best) const;
+  /// One bin along each axis, or the union of several: a lane of the loads for each axis.
+  struct Bin {
+    std::array<Box, 3> boxes;
+    UInt4 counts{}, weights{};
 
-  Box boxes_[3][kMaxBins];
-  Load loads_[3][kMaxBins];
+    void include(const Bin& b);
+    /// Returns the area times the expected number of blocks; infinity if there are no references.
+    [[nodiscard]] Float4 costs(const AreaMeasure& area) const;
+  };
+
+  Bin bins_[kMaxBins];
 };
 
 }  // namespace microtrace::build
