@@ -124,8 +124,8 @@ MT_API void mt_scene_release(mt_scene* scene);
 
 MT_API uint32_t mt_scene_primitive_count(const mt_scene* scene);
 MT_API size_t mt_scene_object_count(const mt_scene* scene);
-/* Returns the name of an object, or NULL if the index is out of range. The string is valid until
- * the scene is released. */
+/* Returns the name of an object, or NULL if the index is out of range or memory is exhausted. The
+ * string is valid until the scene is released. */
 MT_API const char* mt_scene_object_name(const mt_scene* scene, size_t object);
 /* Returns the loader's warnings, each ending with a line break. The string is valid until the scene
  * is released. */

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -228,10 +229,15 @@ const char* mt_scene_object_name(const mt_scene* scene, size_t object) {
   if (scene == nullptr) return nullptr;
   const auto& objects = scene->prepared.scene().objects;
   if (object >= objects.size()) return nullptr;
-  const std::scoped_lock lock(scene->names_mutex);
-  const auto [name, is_new] = scene->names.try_emplace(object);
-  if (is_new) name->second = objects[object].name.str();
-  return name->second.c_str();
+  try {
+    const std::scoped_lock lock(scene->names_mutex);
+    auto name = scene->names.find(object);
+    if (name == scene->names.end())
+      name = scene->names.emplace(object, objects[object].name.str()).first;
+    return name->second.c_str();
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
 }
 
 const char* mt_scene_warnings(const mt_scene* scene) {

@@ -63,11 +63,15 @@ void make_unique(std::size_t count, const NameOf& name,
   constexpr std::uint64_t kBytesOfUse = 128;
   std::uint64_t bytes = 0;
   for (std::size_t i = 0; i < count; ++i) bytes += kBytesOfUse + 2 * name(i).size();
-  const MemoryAccount room = temporary_memory(bytes, "the names of the scene");
+  constexpr std::uint64_t kBytesOfText = 64;  // a renamed object's own text and its allocation
+  constexpr const char* kNames = "the names of the scene";
+  const MemoryAccount room = temporary_memory(bytes, kNames);
   UniqueNames unique(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string own = name(i), made = unique.make(own);
-    if (made != own) rename(i, made);
+    if (made == own) continue;
+    take_memory(kBytesOfText + made.size(), kNames);
+    rename(i, made);
   }
 }
 
