@@ -297,7 +297,9 @@ static void files(const char* folder) {
   mt_scene* scene = NULL;
   snprintf(path, sizeof path, "%s/perspective1.json", folder);
   CHECK(mt_scene_load(path, NULL, &scene) == MT_OK);
-  CHECK(mt_scene_object_count(scene) > 0 && mt_scene_object_name(scene, 0) != NULL);
+  const char* const name = mt_scene_object_name(scene, 0);
+  CHECK(mt_scene_object_count(scene) > 0 && name != NULL && strcmp(name, "s1") == 0);
+  CHECK(mt_scene_object_name(scene, 1) != NULL && mt_scene_object_name(scene, 0) == name);
   CHECK(mt_scene_object_name(scene, 1000) == NULL);
   CHECK(strcmp(mt_scene_warnings(scene), "") == 0);
   mt_film* film = NULL;
