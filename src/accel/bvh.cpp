@@ -135,7 +135,9 @@ std::optional<Box> Bvh::bounds() const {
 }
 
 std::size_t Bvh::memory() const {
-  return memory_of(impl_->tree);
+  const bool has_few = impl_->few != nullptr || impl_->large.triangles != nullptr;
+  return memory_of(impl_->tree) + impl_->large.rest.size() * sizeof(WideNode) +
+         (has_few ? sizeof(FewTriangles) : 0);
 }
 
 std::shared_ptr<const BvhTree> Bvh::tree() const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,16 +17,20 @@ namespace microtrace {
 namespace {
 
 using build::largest_component;
-using Entry = FewTriangles::Entry;
-using Facet = FewTriangles::Facet;
 
-constexpr double kRoundoff = 0x1p-24;  // of float32
+constexpr double kFloatRoundoff = 0x1p-24;  // of float32
 
 void put(const Vec3& v, float (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = v[k];
 }
 
-Vec3 vertex(const Entry& entry, int k) {
+/// Rounds to the range of finite numbers.
+float limited_float(double x) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -kMost, kMost));
+}
+
+Vec3 vertex(const FewTriangles::Entry& entry, int k) {
   const float(&v)[3] = entry.vertices[k];
   return {v[0], v[1], v[2]};
 }
@@ -47,7 +52,7 @@ int axis_of(const Vec3& v) {
   return FewTriangles::kOblique;
 }
 
-void put_edges(const Vec3& a, const Vec3& b, const Vec3& c, Facet& facet) {
+void put_edges(const Vec3& a, const Vec3& b, const Vec3& c, FewTriangles::Facet& facet) {
   Vec3 e1 = b - a, e2 = c - a;
   const int axis1 = axis_of(e1), axis2 = axis_of(e2);
   facet.axis = FewTriangles::kOblique;
@@ -61,8 +66,9 @@ void put_edges(const Vec3& a, const Vec3& b, const Vec3& c, Facet& facet) {
   put(glm::cross(e1, e2), facet.n);
 }
 
-Facet facet_of(const Entry& entry, int number, const TriangleBlock& block) {
-  Facet facet{};
+FewTriangles::Facet facet_of(const FewTriangles::Entry& entry, int number,
+                             const TriangleBlock& block) {
+  FewTriangles::Facet facet{};
   put_edges(vertex(entry, 0), vertex(entry, 1), vertex(entry, 2), facet);
   facet.largest_edge = block.largest_edge;
   facet.edge_product = block.edge_product;
@@ -77,7 +83,8 @@ struct Quadrilateral {
   Vec3 a, b, c, d;
 };
 
-std::optional<Quadrilateral> joined(const Entry& first, const Entry& second) {
+std::optional<Quadrilateral> joined(const FewTriangles::Entry& first,
+                                    const FewTriangles::Entry& second) {
   for (int k = 0; k < 3; ++k) {
     const Vec3 b = vertex(first, (k + 1) % 3), c = vertex(first, (k + 2) % 3);
     for (int m = 0; m < 3; ++m) {
@@ -91,7 +98,8 @@ std::optional<Quadrilateral> joined(const Entry& first, const Entry& second) {
 
 /// Makes `facet` the parallelogram of both triangles. Returns false, without effect, if they don't
 /// form one.
-bool join(const Entry& first, const Entry& second, int number, double most_growth, Facet& facet) {
+bool join(const FewTriangles::Entry& first, const FewTriangles::Entry& second, int number,
+          double most_growth, FewTriangles::Facet& facet) {
   const std::optional<Quadrilateral> corners = joined(first, second);
   if (!corners) return false;
   const auto& [a, b, c, d] = *corners;
@@ -114,10 +122,10 @@ bool join(const Entry& first, const Entry& second, int number, double most_growt
 }
 
 /// Sets the rectangle of a facet with an axis. Returns false if its corners are not exact.
-bool put_rectangle(const FewTriangles& few, Facet& facet) {
+bool put_rectangle(const FewTriangles& few, FewTriangles::Facet& facet) {
   FewTriangles::Rectangle& to = facet.rectangle;
   to.plane = facet.a[facet.axis];
-  double diagonal_error = 16 * kRoundoff;
+  double diagonal_error = 16 * kFloatRoundoff;
   for (int k = 0; k < 2; ++k) {
     const int axis = (facet.axis + 1 + k) % 3;
     const float low = facet.box.lo[axis], high = facet.box.hi[axis];
@@ -130,19 +138,19 @@ bool put_rectangle(const FewTriangles& few, Facet& facet) {
     const double half = (double{high} - low) / 2, edge = (k == 0 ? facet.e1 : facet.e2)[axis];
     to.middle[k] = static_cast<float>((double{low} + high) / 2);
     // See RectangleTest.
-    const double error = 16 * kRoundoff * (half + std::abs(double{to.middle[k]})) + 0x1p-100;
+    const double error = 16 * kFloatRoundoff * (half + std::abs(double{to.middle[k]})) + 0x1p-100;
     to.inner[k] = static_cast<float>(half - error);
     to.outer[k] = static_cast<float>(half + error);
-    to.per_edge[k] = static_cast<float>(1 / edge);
+    to.per_edge[k] = limited_float(1 / edge);
     diagonal_error += error / half;
   }
-  to.diagonal_error = static_cast<float>(diagonal_error);
+  to.diagonal_error = limited_float(diagonal_error);
   return facet.box.lo[facet.axis] == facet.box.hi[facet.axis];
 }
 
-Entry entry_of(const TriangleBlock& block, std::size_t lane) {
+FewTriangles::Entry entry_of(const TriangleBlock& block, std::size_t lane) {
   const auto [a, b, c] = build::triangle_in(block, lane);
-  Entry entry{};
+  FewTriangles::Entry entry{};
   put(a, entry.vertices[0]);
   put(b, entry.vertices[1]);
   put(c, entry.vertices[2]);
@@ -167,13 +175,13 @@ bool FewTrianglesBuilder::add(std::size_t slot) {
   FewTriangles& few = *triangles_;
   const auto known = std::span(few.entries).first(static_cast<std::size_t>(few.count));
   // Large triangles can be in several leaves.
-  if (std::ranges::find(known, block.id[k], &Entry::id) != known.end()) return true;
+  if (std::ranges::find(known, block.id[k], &FewTriangles::Entry::id) != known.end()) return true;
   if (few.count == FewTriangles::kMost) return false;
   const int number = few.count++;
-  Entry& entry = few.entries[number] = entry_of(block, k);
+  FewTriangles::Entry& entry = few.entries[number] = entry_of(block, k);
   entry.slot = static_cast<std::uint32_t>(slot);
   const auto facets = std::span(few.facets).first(facets_);
-  const bool is_joined = std::ranges::any_of(facets, [&](Facet& facet) {
+  const bool is_joined = std::ranges::any_of(facets, [&](FewTriangles::Facet& facet) {
     return facet.second < 0 && join(few.entries[facet.first], entry, number, most_growth_, facet);
   });
   if (!is_joined) few.facets[facets_++] = facet_of(entry, number, block);
@@ -182,14 +190,14 @@ bool FewTrianglesBuilder::add(std::size_t slot) {
 
 std::unique_ptr<const FewTriangles> FewTrianglesBuilder::finish() && {
   const auto facets = std::span(triangles_->facets).first(facets_);
-  for (Facet& facet : facets) {
+  for (FewTriangles::Facet& facet : facets) {
     if (facet.axis < FewTriangles::kOblique && !put_rectangle(*triangles_, facet))
       facet.axis = FewTriangles::kOblique;
   }
-  std::ranges::stable_sort(facets, {}, &Facet::axis);
+  std::ranges::stable_sort(facets, {}, &FewTriangles::Facet::axis);
   for (int axis = 0; axis <= FewTriangles::kOblique; ++axis)
-    triangles_->ends[axis] =
-        static_cast<int>(std::ranges::upper_bound(facets, axis, {}, &Facet::axis) - facets.begin());
+    triangles_->ends[axis] = static_cast<int>(
+        std::ranges::upper_bound(facets, axis, {}, &FewTriangles::Facet::axis) - facets.begin());
   return std::move(triangles_);
 }
 

@@ -13,12 +13,10 @@
 namespace microtrace {
 namespace {
 
-using build::Box;
-
 /// The fractions of the surface of all that the box of a large triangle has at least. The first one
 /// is used with which the triangles are few.
 constexpr float kLeastAreas[] = {1.0F / 512, 1.0F / 128, 1.0F / 32};
-/// Few enough for FewTrianglesWalk with the kernels of all instruction sets.
+/// Few enough for FewTrianglesWalk to be fast with the kernels of all instruction sets.
 constexpr std::size_t kMostFacets = 16;
 constexpr std::size_t kMostNodes = std::size_t{1} << 13U;
 
@@ -40,13 +38,14 @@ class Collector {
   }
 
  private:
-  static Box box_of(const Bounds& bounds) {
+  static build::Box box_of(const Bounds& bounds) {
     const auto& [lo, hi] = bounds;
-    return Box{.lo = build::Float4{lo.x, lo.y, lo.z, 0}, .hi = build::Float4{hi.x, hi.y, hi.z, 0}};
+    return build::Box{.lo = build::Float4{lo.x, lo.y, lo.z, 0},
+                      .hi = build::Float4{hi.x, hi.y, hi.z, 0}};
   }
 
   /// Removes the leaves below a node that have only large triangles. Returns the box of the others.
-  Box prune(std::size_t number) {
+  build::Box prune(std::size_t number) {
     WideNode& node = nodes_[number];
     for (std::size_t i = 0; i < kWidth; ++i) {
       if (!build::has_child(node, i)) continue;
@@ -54,7 +53,7 @@ class Collector {
       if (build::kind_of(child) == 0) {
         build::set_box(node, i, prune(child));
       } else if (build::kind_of(child) == child_ref::kTriangles && takes(child)) {
-        build::set_box(node, i, Box{});
+        build::set_box(node, i, build::Box{});
       }
     }
     return build::union_of_children(node);

@@ -55,13 +55,13 @@ DVec3 barycentrics_at(const TriangleCorners<1>& t, const DVec3& p) {
 }
 
 /// The polynomial a t^2 + 2 b t + c.
-struct Polynomial {
+struct QuadraticPolynomial {
   double a, b, c;
 
   /// Returns the root near the float32 number t, by Newton's method. Returns nothing if float64
   /// can't compute it, because it is nearly a double root or not near t. `sizes` are sums of the
   /// magnitudes of the terms of a, b and c.
-  [[nodiscard]] std::optional<double> root_near(float t, const Polynomial& sizes) const {
+  [[nodiscard]] std::optional<double> root_near(float t, const QuadraticPolynomial& sizes) const {
     const double terms = sizes.b * sizes.b + sizes.a * sizes.c;
     if (!(std::abs(b * b - a * c) > 0x1p-28 * terms)) return std::nullopt;
     double x = t;
@@ -82,7 +82,7 @@ DVec3 half_gradient(const Quadric& q, const DVec3& v, double weight) {
 }
 
 /// The quadric's polynomial at o + t d.
-Polynomial along(const Quadric& q, const DVec3& o, const DVec3& d) {
+QuadraticPolynomial along(const Quadric& q, const DVec3& o, const DVec3& d) {
   return {.a = glm::dot(d, half_gradient(q, d, 0)),
           .b = glm::dot(d, half_gradient(q, o, 1)),
           .c = glm::dot(o, half_gradient(q, o, 2)) + double{q.j}};
@@ -109,7 +109,7 @@ class Interaction {
   SurfaceInteraction operator()(const Disc& s) const { return planar(s, s.center); }
 
   SurfaceInteraction operator()(const Quadric& q) const {
-    const Polynomial sizes = along(magnitudes_of(q), glm::abs(o_), glm::abs(d_));
+    const QuadraticPolynomial sizes = along(magnitudes_of(q), glm::abs(o_), glm::abs(d_));
     const std::optional<double> t = along(q, o_, d_).root_near(hit_.t, sizes);
     if (!t) return exactly(q);
     const DVec3 p = o_ + *t * d_;

@@ -177,5 +177,57 @@ TEST(Path, BytesDependOnlyOnTheScene) {
   EXPECT_TRUE(differs);
 }
 
+/// Appends a parallelogram.
+Mesh& add_mesh(Scene& scene, const Vec3& corner, const Vec3& along, const Vec3& up,
+               std::uint32_t material) {
+  scene.objects.push_back({.name = "mesh", .shape = quad(corner, along, up), .material = material});
+  return std::get<Mesh>(scene.objects.back().shape);
+}
+
+/// A room with surfaces of many kinds, each of a mesh without attributes, except for two.
+Scene room_of_meshes() {
+  Scene scene;
+  scene.materials = {
+      {.base_color = {0.8F, 0.7F, 0.6F, 1}},
+      {.base_color = {0.9F, 0.5F, 0.3F, 1}, .double_sided = false, .roughness = 0.4F},
+      {.emissive = {4, 3, 2}},
+      {.base_color = {1, 1, 1, 0.5F}, .alpha_mode = AlphaMode::blend}};
+  Material brushed{.metallic = 1, .roughness = 0.4F, .emissive = Vec3(0.01F)};
+  brushed.anisotropy = Anisotropy{.strength = 1};
+  scene.materials.push_back(brushed);
+  Material glass{.roughness = 0.1F};
+  glass.transmission = Transmission{.factor = 1};
+  scene.materials.push_back(glass);
+  add_mesh(scene, {-3, -1, -6}, {6, 0, 0}, {0, 4, 0}, 0).normals =
+      std::vector<Vec3>(4, Vec3(0, 0, 1));
+  add_mesh(scene, {-1, -0.9F, -2}, {2, 0, 0}, {0, 0, -2}, 4).tangents =
+      std::vector<Vec4>{{1, 0, 0, 1}, {0, 0, 1, 1}, {-1, 0, 0, 1}, {0, 0, -1, 1}};
+  add_mesh(scene, {-3, -1, 0}, {6, 0, 0}, {0, 0, -6}, 0);
+  add_mesh(scene, {-3, -1, 0}, {0, 0, -6}, {0, 4, 0}, 1);
+  add_mesh(scene, {-1, 2.5F, -4}, {0, 0, 1}, {1, 0, 0.25F}, 2);
+  add_mesh(scene, {0.5F, -0.5F, -3}, {1, 0, 0.5F}, {0, 1, 0}, 3);
+  add_mesh(scene, {-1.5F, -0.5F, -3}, {1, 0, 0.5F}, {0, 1, 0}, 5);
+  return scene;
+}
+
+// An empty set of texture coordinates changes nothing but the code that finds the points.
+TEST(Path, FlatTrianglesHaveTheBytesOfOthers) {
+  const Scene flat = room_of_meshes();
+  Scene other = flat;
+  for (Object& object : other.objects) std::get<Mesh>(object.shape).uv_sets = {{}};
+  const PathIntegrator path;
+  const auto draw = [&](const Scene& scene, unsigned threads) {
+    return render(scene, PerspectiveCamera{}, {.width = 64, .height = 48},
+                  {.threads = threads, .integrator = &path, .samples = 16});
+  };
+  const Film expected = draw(other, 1), one = draw(flat, 1), several = draw(flat, 3);
+  for (std::uint32_t y = 0; y < 48; ++y) {
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      ASSERT_EQ(one.row(y)[x], expected.row(y)[x]) << x << ", " << y;
+      ASSERT_EQ(several.row(y)[x], expected.row(y)[x]) << x << ", " << y;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace microtrace

@@ -17,7 +17,8 @@ constexpr int kFewFacets = 4 * N;
 
 template <int N>
 inline bool has_few_triangles(const TreeView& tree) {
-  return tree.few != nullptr && tree.few->ends[FewTriangles::kOblique] <= kFewFacets<N>;
+  return tree.few != nullptr &&
+         (!tree.few_are_all || tree.few->ends[FewTriangles::kOblique] <= kFewFacets<N>);
 }
 
 /// Finds the nearest hits or, with kAny, any hits.

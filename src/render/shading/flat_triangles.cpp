@@ -12,7 +12,8 @@ namespace {
 const FlatTriangle kNone{.corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .n = {0, 0, 1}};
 
 bool has_attributes(const Mesh& mesh) {
-  return !mesh.normals.empty() || !mesh.uv_sets.empty() || !mesh.colors.empty();
+  return !mesh.normals.empty() || !mesh.tangents.empty() || !mesh.uv_sets.empty() ||
+         !mesh.colors.empty();
 }
 
 bool is_simple(const TexturedMaterial& look) {
