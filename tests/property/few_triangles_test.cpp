@@ -100,9 +100,38 @@ Ray random_ray(Random& random, const Parallelograms& all) {
         random.between(0, static_cast<int>(corners.size()) - 1))];
   };
   const Vec3 target = random_target(random, some());
-  const Vec3 o = random.one_in(4) ? random_target(random, some())
-                                  : target + random.power_of_two(-8, 4) * random.in_cube(1);
-  return {.o = o, .t_min = 0, .d = target - o, .t_max = random.one_in(8) ? 1 : INFINITY};
+  Vec3 o = random.one_in(4) ? random_target(random, some())
+                            : target + random.power_of_two(-8, 4) * random.in_cube(1);
+  const int axis = random.between(0, 2);
+  if (random.one_in(5)) o[axis] = target[axis];  // often in the plane of a rectangle
+  Vec3 d = target - o;
+  if (random.one_in(10)) {
+    d[axis] = random.power_of_two(-126, -90);
+    if (random.one_in(2)) d[axis] = -d[axis];
+  }
+  return {.o = o,
+          .t_min = random.one_in(8) ? 1.0F : 0.0F,
+          .d = d,
+          .t_max = random.one_in(8) ? 1 : INFINITY};
+}
+
+/// Casts random rays, and compares their hits with those by definition. Adds their number to
+/// `hits`.
+void check_rays(Random& random, const Parallelograms& all, std::size_t& hits) {
+  const Bvh bvh(all.scene);
+  const Primitives primitives(all.scene);
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < kRays; ++i) rays.push_back(random_ray(random, all));
+  std::vector<std::optional<Hit>> found(kRays);
+  bvh.intersect(rays, found);
+  const auto occluded = std::make_unique<bool[]>(kRays);
+  bvh.occluded(rays, std::span(occluded.get(), kRays));
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const std::optional<Hit> expected = hit_by_definition(primitives, rays[i]);
+    hits += expected ? 1 : 0;
+    ASSERT_TRUE(same(found[i], expected)) << "ray " << i;
+    ASSERT_EQ(occluded[i], expected.has_value()) << "ray " << i;
+  }
 }
 
 std::size_t joined_triangles(const FewTriangles& few) {
@@ -116,24 +145,12 @@ TEST(FewTriangles, RaysThroughParallelogramsHaveTheirExactHits) {
     std::size_t triangles = 0, joined = 0, rectangles = 0, hits = 0;
     for (std::size_t round = 0; round < rounds; ++round) {
       const Parallelograms all(random, random.between(1, 5), 1 << random.between(0, 4));
-      const Bvh bvh(all.scene);
       const Primitives primitives(all.scene);
       triangles += primitives.count();
       const auto few = few_triangles(build_tree(primitives, {}));
       joined += joined_triangles(*few);
       rectangles += static_cast<std::size_t>(few->ends[FewTriangles::kOblique - 1]);
-      std::vector<Ray> rays;
-      for (std::size_t i = 0; i < kRays; ++i) rays.push_back(random_ray(random, all));
-      std::vector<std::optional<Hit>> found(kRays);
-      bvh.intersect(rays, found);
-      const auto occluded = std::make_unique<bool[]>(kRays);
-      bvh.occluded(rays, std::span(occluded.get(), kRays));
-      for (std::size_t i = 0; i < kRays; ++i) {
-        const std::optional<Hit> expected = hit_by_definition(primitives, rays[i]);
-        hits += expected ? 1 : 0;
-        ASSERT_TRUE(same(found[i], expected)) << "ray " << i << " of round " << round;
-        ASSERT_EQ(occluded[i], expected.has_value()) << "ray " << i << " of round " << round;
-      }
+      ASSERT_NO_FATAL_FAILURE(check_rays(random, all, hits)) << "round " << round;
     }
     EXPECT_GT(joined, triangles / 2);
     EXPECT_GT(rectangles, rounds / 2);
@@ -160,25 +177,15 @@ TEST(FewTriangles, LargeTrianglesAmongManyHaveTheirExactHits) {
     for (std::size_t round = 0; round < rounds; ++round) {
       Parallelograms all(random, 4, 1 << random.between(0, 4));
       add_small_triangles(random, 200, all);
+      if (random.one_in(2))
+        all.scene.objects.push_back({.name = "", .shape = Sphere{random.in_cube(4), 0.5F}});
       const Primitives primitives(all.scene);
       const LargeTriangles large = large_triangles(build_tree(primitives, {}));
       if (large.triangles) {
         ++with_large;
         EXPECT_LT(large.triangles->count, 40);
       }
-      const Bvh bvh(all.scene);
-      std::vector<Ray> rays;
-      for (std::size_t i = 0; i < kRays; ++i) rays.push_back(random_ray(random, all));
-      std::vector<std::optional<Hit>> found(kRays);
-      bvh.intersect(rays, found);
-      const auto occluded = std::make_unique<bool[]>(kRays);
-      bvh.occluded(rays, std::span(occluded.get(), kRays));
-      for (std::size_t i = 0; i < kRays; ++i) {
-        const std::optional<Hit> expected = hit_by_definition(primitives, rays[i]);
-        hits += expected ? 1 : 0;
-        ASSERT_TRUE(same(found[i], expected)) << "ray " << i << " of round " << round;
-        ASSERT_EQ(occluded[i], expected.has_value()) << "ray " << i << " of round " << round;
-      }
+      ASSERT_NO_FATAL_FAILURE(check_rays(random, all, hits)) << "round " << round;
     }
     EXPECT_GT(with_large, rounds / 2);
     EXPECT_GT(hits, rounds * kRays / 4);
