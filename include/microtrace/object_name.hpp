@@ -40,6 +40,8 @@ class MICROTRACE_EXPORT ObjectName {
     bool is_numbered;
     std::atomic<std::uint32_t> users{1};  ///< number of names
 
+    // Without the size, which would leave out the characters.
+    // NOLINTNEXTLINE(misc-new-delete-overloads): constructed in memory of ::operator new
     static void operator delete(void* text) { ::operator delete(text); }
   };
 
