@@ -35,7 +35,10 @@ struct Bvh::Impl {
   /// without traversal.
   [[nodiscard]] TreeView view_without_few() const {
     TreeView result = view();
-    if (large.triangles) result.nodes = large.rest.data();
+    if (large.triangles) {
+      result.nodes = large.rest.data();
+      result.rest = large.bounds;
+    }
     result.few = large.triangles ? large.triangles.get() : few.get();
     result.few_are_all = large.triangles == nullptr;
     return result;

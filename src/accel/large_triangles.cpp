@@ -31,7 +31,11 @@ class Collector {
   LargeTriangles collect() && {
     LargeTriangles result{.triangles = nullptr, .rest = {tree_.nodes.begin(), tree_.nodes.end()}};
     nodes_ = result.rest;
-    prune(tree_.root);
+    const build::Box others = prune(tree_.root);
+    for (int axis = 0; axis < 3; ++axis) {
+      result.bounds.lo[axis] = others.lo[axis];
+      result.bounds.hi[axis] = others.hi[axis];
+    }
     if (builder_.facets() == 0 || builder_.facets() > kMostFacets || failed_) return {};
     result.triangles = std::move(builder_).finish();
     return result;

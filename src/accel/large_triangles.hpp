@@ -13,6 +13,7 @@ namespace microtrace {
 struct LargeTriangles {
   std::unique_ptr<const FewTriangles> triangles;  ///< null if there are none
   std::vector<WideNode> rest;                     ///< nodes of the tree without these leaves
+  FewTriangles::Box bounds{};                     ///< of the other leaves
 };
 
 /// Returns the large triangles if they are few. There are none in a tree that is small enough for

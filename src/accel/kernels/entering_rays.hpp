@@ -36,29 +36,12 @@ inline Lanes rays_entering(const KernelStream& stream, int first, const FewTrian
   return less_equal<N>(enter, leave);
 }
 
-/// Returns the box around the children of a node.
-inline FewTriangles::Box box_around(const WideNode& node) {
-  FewTriangles::Box box{};
-  const float* const lo[3] = {node.lo_x, node.lo_y, node.lo_z};
-  const float* const hi[3] = {node.hi_x, node.hi_y, node.hi_z};
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lo[axis] = lo[axis][0];
-    box.hi[axis] = hi[axis][0];
-    for (int i = 1; i < kWidth; ++i) {
-      box.lo[axis] = lesser(lo[axis][i], box.lo[axis]);
-      box.hi[axis] = greater(hi[axis][i], box.hi[axis]);
-    }
-  }
-  return box;
-}
-
-/// Lists the rays that enter the tree's box before their nearest hits.
+/// Lists the rays that enter TreeView::rest before their nearest hits.
 template <int M>
 inline void list_entering(const TreeView& tree, const KernelStream& stream, StreamItems& items) {
-  const FewTriangles::Box box = box_around(tree.nodes[tree.root]);
   for (int first = 0; first < stream.count; first += M) {
     const int rest = stream.count - first;
-    Lanes lanes = rays_entering<M>(stream, first, box, load<M>(stream.best_hi + first));
+    Lanes lanes = rays_entering<M>(stream, first, tree.rest, load<M>(stream.best_hi + first));
     if (rest < M) lanes &= (Lanes{1} << rest) - 1;
     for (; lanes != 0; lanes &= lanes - 1)
       items.item[items.size++] = {first + first_lane(lanes), tree.root};

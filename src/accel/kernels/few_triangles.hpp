@@ -89,7 +89,7 @@ class FewTrianglesWalk {
     store<N>(stream_.best_hi + first_, group.best_hi);
   }
 
-  /// Update the nearest hits of the rays that hit a facet.
+  /// Updates the nearest hits of the rays that hit a facet.
   template <int kAxis>
   __attribute__((always_inline)) void meet_rectangle(const FewTriangles::Facet& facet,
                                                      Group& group) {
@@ -171,18 +171,14 @@ class FewTrianglesWalk {
     const FewTriangles::Entry& triangle = tree_.few->entries[number];
     Candidates rays{.maybe = maybe, .certain = certain_of(hits)};
     if (rays.maybe != 0 && is_open_front(tree_, triangle.id)) pass_fronts(triangle, rays);
-    if (rays.maybe != 0) rays.maybe &= entering(triangle.box, group);
+    // As in a tree, few of the rays in a triangle's plane enter its box before their nearest hits.
+    if (rays.maybe != 0)
+      rays.maybe &= rays_entering<N>(stream_, first_, triangle.box, group.best_hi);
     if (rays.maybe == 0) return;
     store_best(group);
     decide(triangle, rays, hits.t, hits.with_t);
     load_best(group);
     if (kAny) group.rays &= without_hit();
-  }
-
-  /// Returns the rays that enter a triangle's bounding box before their nearest hits. As in a tree,
-  /// few of the rays in a triangle's plane do.
-  [[nodiscard]] Lanes entering(const FewTriangles::Box& box, const Group& group) const {
-    return rays_entering<N>(stream_, first_, box, group.best_hi);
   }
 
   /// Removes the rays that pass through the front of an open triangle.

@@ -25,6 +25,7 @@ struct TreeView {
   /// that the nodes leave out.
   const FewTriangles* few = nullptr;
   bool few_are_all = true;
+  FewTriangles::Box rest{};  ///< contains what the nodes don't leave out, unless few_are_all
   /// One bit per primitive, or null. any_of_stream passes through the fronts of these triangles.
   const std::uint32_t* open_fronts = nullptr;
 };

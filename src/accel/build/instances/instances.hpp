@@ -42,7 +42,7 @@ class Instances {
 };
 
 /// Returns an upper bound of the memory of a build, in which each shared mesh counts once, unless
-/// make_instance() refuses placements.
+/// placements have no instance_box().
 [[nodiscard]] std::uint64_t memory_to_build(const Primitives& primitives);
 
 }  // namespace microtrace::build
