@@ -1,5 +1,6 @@
 #include "cli/report/warnings.hpp"
 
+#include "base/counted.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/report/validation_result.hpp"
 #include "scene/material_textures.hpp"
@@ -98,7 +99,7 @@ std::string lights_text(const Scene& scene) {
   const std::size_t lights = scene.lights.size();
   const auto dark = static_cast<std::size_t>(std::ranges::count_if(
       scene.lights, [](const NamedLight& light) { return is_dark(light.light); }));
-  std::string text = std::to_string(lights) + (lights == 1 ? " light" : " lights");
+  std::string text = counted(lights, "light");
   if (dark > 0)
     text += dark == lights ? " of intensity 0" : " (" + std::to_string(dark) + " of intensity 0)";
   if (has_emissive_surfaces(scene)) text += ", emissive surfaces";
