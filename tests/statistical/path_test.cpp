@@ -5,6 +5,9 @@
 #include <microtrace/render.hpp>
 
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -227,6 +230,54 @@ TEST(Path, FlatTrianglesHaveTheBytesOfOthers) {
       ASSERT_EQ(several.row(y)[x], expected.row(y)[x]) << x << ", " << y;
     }
   }
+}
+
+/// Adds a gray texture and returns its index.
+std::uint32_t add_texture(Scene& scene, std::uint32_t width, std::uint32_t height,
+                          std::vector<std::uint8_t> grays, Wrap wrap) {
+  scene.images.push_back(std::make_shared<const Image>(
+      Image{.width = width, .height = height, .channels = 1, .samples = std::move(grays)}));
+  scene.textures.push_back({.image = static_cast<std::uint32_t>(scene.images.size() - 1),
+                            .sampler = {.wrap_s = wrap, .wrap_t = wrap}});
+  return static_cast<std::uint32_t>(scene.textures.size() - 1);
+}
+
+// White and black textures change nothing but the code that looks textures up, wherever and however
+// large they are.
+TEST(Path, TexturesOfDifferentSizesAreLookedUpEachInItsOwnWay) {
+  Scene scene = room_of_meshes();
+  for (Object& object : scene.objects)
+    std::get<Mesh>(object.shape).uv_sets = {{{0, 0}, {1.5F, 0}, {1.5F, 1.5F}, {0, 1.5F}}};
+  std::vector<std::uint8_t> noise;
+  for (std::uint32_t i = 0; i < 64 * 64; ++i) noise.push_back(static_cast<std::uint8_t>(i * i / 7));
+  const std::uint32_t rough = add_texture(scene, 64, 64, noise, Wrap::repeat);
+  const std::uint32_t black =
+      add_texture(scene, 64, 64, std::vector<std::uint8_t>(64 * 64, 0), Wrap::repeat);
+  for (Material& material : scene.materials) {
+    material.metallic_roughness_texture = TextureUse{.texture = rough};
+    if (material.emissive != Vec3(0)) continue;
+    material.emissive = Vec3(5);
+    material.emissive_texture = TextureUse{.texture = black};
+  }
+  Scene other = scene;
+  const std::uint32_t white =
+      add_texture(other, 3, 7, std::vector<std::uint8_t>(21, 255), Wrap::clamp_to_edge);
+  const std::uint32_t dark =
+      add_texture(other, 16, 1, std::vector<std::uint8_t>(16, 0), Wrap::mirrored_repeat);
+  for (Material& material : other.materials) {
+    const Mat3x2 turned(0, -3, 2, 0, 0.25F, 0.5F);
+    material.base_color_texture = TextureUse{.texture = white, .texture_from_uv = turned};
+    if (material.emissive_texture) material.emissive_texture->texture = dark;
+  }
+  const PathIntegrator path;
+  const auto draw = [&](const Scene& drawn) {
+    return render(drawn, PerspectiveCamera{}, {.width = 64, .height = 48},
+                  {.integrator = &path, .samples = 16});
+  };
+  const Film expected = draw(scene), film = draw(other);
+  for (std::uint32_t y = 0; y < 48; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x)
+      ASSERT_EQ(film.row(y)[x], expected.row(y)[x]) << x << ", " << y;
 }
 
 }  // namespace

@@ -5,16 +5,6 @@
 namespace microtrace {
 namespace {
 
-void put_tangents(VertexGroup& group, int lane, const Mesh* mesh,
-                  const std::array<std::uint32_t, 3>& corners) {
-  group.mapped |= Lanes{1} << lane;
-  group.handedness[lane] = 0;
-  if (mesh == nullptr || mesh->tangents.empty()) return;
-  for (std::size_t corner = 0; corner < 3; ++corner)
-    put(group.tangents[corner], lane, Vec3(mesh->tangent(corners[corner])));
-  group.handedness[lane] = mesh->tangent(corners[0]).w;
-}
-
 void put_texel(NormalMapLanes& lanes, int lane, const Vec3& texel, float scale) {
   lanes.is_mapped[lane] = 1;
   put(lanes.texel, lane, texel);
@@ -23,10 +13,14 @@ void put_texel(NormalMapLanes& lanes, int lane, const Vec3& texel, float scale) 
 
 }  // namespace
 
-void put_normal_map(VertexGroup& group, int lane, const Mesh* mesh,
-                    const std::array<std::uint32_t, 3>& corners, const Vec3& texel, float scale) {
-  put_tangents(group, lane, mesh, corners);
-  put_texel(group.normals, lane, texel, scale);
+void put_tangents(VertexGroup& group, int lane, const Mesh* mesh,
+                  const std::array<std::uint32_t, 3>& corners) {
+  group.mapped |= Lanes{1} << lane;
+  group.handedness[lane] = 0;
+  if (mesh == nullptr || mesh->tangents.empty()) return;
+  for (std::size_t corner = 0; corner < 3; ++corner)
+    put(group.tangents[corner], lane, Vec3(mesh->tangent(corners[corner])));
+  group.handedness[lane] = mesh->tangent(corners[0]).w;
 }
 
 void put_point(VertexGroup& group, int lane, const ShadingPoint& point) {

@@ -40,9 +40,9 @@ struct alignas(64) VertexGroup {
   std::array<bsdf::Features, kShadingLanes> features;  ///< of the other lanes with a vertex
 };
 
-/// Sets the normal map of a lane and the tangents of its triangle, but not their weights.
-void put_normal_map(VertexGroup& group, int lane, const Mesh* mesh,
-                    const std::array<std::uint32_t, 3>& corners, const Vec3& texel, float scale);
+/// Adds a lane to group.mapped, and sets the tangents of its triangle, but not their weights.
+void put_tangents(VertexGroup& group, int lane, const Mesh* mesh,
+                  const std::array<std::uint32_t, 3>& corners);
 
 /// Sets the members of a lane that depend on its point: position, normals and normal maps.
 void put_point(VertexGroup& group, int lane, const ShadingPoint& point);

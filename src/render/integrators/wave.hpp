@@ -173,7 +173,7 @@ class Wave {
   std::array<PrimitiveId, kRandomBatch> open_blockers_;
   std::array<Vec3, kRandomBatch> colors_;
   std::array<float, kRandomBatch> alphas_;
-  FrequentTexels texels_;
+  TexturedLanes textured_;
   Lighting::Escapes escapes_;
   // The input of a BSDF with textures. A local variable would be cleared for each vertex.
   std::optional<BsdfInput> varying_;

@@ -154,31 +154,35 @@ Lanes Wave::add_simple(std::size_t first) {
 
 Lanes Wave::add_varying(Lanes lanes) {
   VertexGroup& group = vertices_.group();
-  Shading::look_up(group.hits, lanes, group.width, step_.depth == 1, texels_);
+  const HitGroup& hits = group.hits;
+  for (LaneFloats& channel : textured_.color) std::ranges::fill(channel, 1.0F);
   for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto k = static_cast<std::size_t>(lane);
-    const TexturedMaterial& look = *group.hits.looks[k];
-    const Material& material = *look.material;
-    const Mesh* mesh = group.hits.meshes[k];
-    const Vec4 color =
-        vertex_color(mesh, group.hits.corners[k], got(group.hits.lanes.weights, lane));
-    const Vec4 base_color = material.base_color * color * texels_.base_color[k];
-    if ((look.is_emissive() && Vec3(texels_.emissive[k]) * material.emissive != Vec3(0)) ||
-        Shading::coverage(material, base_color.w) != 1) {
-      lanes &= ~(Lanes{1} << lane);
-      continue;
-    }
-    bsdf::Parameters base;
-    Shading::set_base(material, base_color, texels_.metallic_roughness[k], base);
-    put(group.surface.base_color, lane, base.base_color);
-    group.surface.metallic[lane] = base.metallic;
-    group.surface.roughness[lane] = base.roughness;
-    if (look[MaterialTexture::normal].map == nullptr) continue;
-    put_normal_map(group, lane, mesh, group.hits.corners[k], Vec3(texels_.normal[k]),
-                   material.normal_scale);
+    if (hits.meshes[k]->colors.empty()) continue;
+    const Vec4 color = vertex_color(hits.meshes[k], hits.corners[k], got(hits.lanes.weights, lane));
+    for (int channel = 0; channel < 4; ++channel) textured_.color[channel][lane] = color[channel];
   }
-  return lanes;
+  Lanes opaque = 0;
+  for (Lanes rest = lanes; rest != 0;) {
+    const TexturedMaterial& look = *hits.looks[static_cast<std::size_t>(std::countr_zero(rest))];
+    Lanes same = 0;
+    for (std::size_t k = 0; k < kShadingLanes; ++k) same |= Lanes{hits.looks[k] == &look} << k;
+    same &= rest;
+    rest &= ~same;
+    const auto& [from_camera, from_others] = *look.kernel_surfaces;
+    kernels_->load_textured(step_.depth == 1 ? from_camera : from_others, same, hits.lanes,
+                            group.width, textured_, group.surface, group.normals);
+    opaque |= textured_.opaque;
+    if (look[MaterialTexture::normal].map == nullptr) continue;
+    for (Lanes mapped = textured_.opaque; mapped != 0; mapped &= mapped - 1) {
+      const int lane = std::countr_zero(mapped);
+      const auto k = static_cast<std::size_t>(lane);
+      group.normals.is_mapped[lane] = 1;
+      put_tangents(group, lane, hits.meshes[k], hits.corners[k]);
+    }
+  }
+  return opaque;
 }
 
 void Wave::prepare(std::size_t i, ShadingPoint& point) const {

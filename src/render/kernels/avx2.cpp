@@ -14,6 +14,7 @@
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
 #include "render/lights/map_light.hpp"
+#include "render/textures/load_textured.hpp"
 
 namespace microtrace {
 const ShadingKernels kAvx2Shading{"avx2",
@@ -25,6 +26,7 @@ const ShadingKernels kAvx2Shading{"avx2",
                                   find_points<8, kShadingLanes>,
                                   find_flat_points<8>,
                                   load_surfaces<8>,
+                                  load_textured<8>,
                                   find_normals<8>,
                                   choose_lights<8, kShadingLanes>,
                                   sample_triangles<8, kShadingLanes>,

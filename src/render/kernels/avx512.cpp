@@ -14,6 +14,7 @@
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
 #include "render/lights/map_light.hpp"
+#include "render/textures/load_textured.hpp"
 
 namespace microtrace {
 const ShadingKernels kAvx512Shading{"avx512",
@@ -25,6 +26,7 @@ const ShadingKernels kAvx512Shading{"avx512",
                                     find_points<16, kShadingLanes>,
                                     find_flat_points<16>,
                                     load_surfaces<16>,
+                                    load_textured<16>,
                                     find_normals<16>,
                                     choose_lights<16, kShadingLanes>,
                                     sample_triangles<16, kShadingLanes>,

@@ -12,6 +12,7 @@
 #include "render/kernels/guide_lanes.hpp"
 #include "render/kernels/light_lanes.hpp"
 #include "render/kernels/surface_lanes.hpp"
+#include "render/textures/textured_lanes.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -129,6 +130,10 @@ struct ShadingKernels {
   void (*find_flat_points)(const FlatTriangle* triangles, FlatHits& flat, HitLanes& hits);
   void (*load_surfaces)(const FlatSurface* table, const std::uint32_t (&which)[kShadingLanes],
                         SurfaceLanes& to);
+  /// See load_textured.hpp.
+  void (*load_textured)(const TexturedSurface& surface, std::uint32_t lanes, const HitLanes& hits,
+                        const LaneFloats& widths, TexturedLanes& to, SurfaceLanes& surfaces,
+                        NormalMapLanes& normals);
   void (*find_normals)(const NormalLanes& points, NormalMapLanes& map);
   void (*choose_lights)(const LightChoiceSetup& setup, LightChoices<kShadingLanes>& lanes);
   void (*sample_triangles)(const TriangleLight* triangles,

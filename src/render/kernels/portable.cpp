@@ -14,6 +14,7 @@
 #include "render/kernels/scatter.hpp"
 #include "render/kernels/sum_samples.hpp"
 #include "render/lights/map_light.hpp"
+#include "render/textures/load_textured.hpp"
 
 namespace microtrace {
 const ShadingKernels kPortableShading{"portable",
@@ -25,6 +26,7 @@ const ShadingKernels kPortableShading{"portable",
                                       find_points<4, kShadingLanes>,
                                       find_flat_points<4>,
                                       load_surfaces<4>,
+                                      load_textured<4>,
                                       find_normals<4>,
                                       choose_lights<4, kShadingLanes>,
                                       sample_triangles<4, kShadingLanes>,

@@ -1,11 +1,13 @@
 #include "render/shading/shading.hpp"
 
 #include "base/memory_account.hpp"
+#include "render/bsdf/base_surface.hpp"
 #include "render/luminance.hpp"
 #include "render/shading/texture_slots.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -70,10 +72,16 @@ bool is_missing_back(const ShadingPoint& point) {
 bool TexturedMaterial::has_rare_textures() const {
   const auto count = static_cast<std::size_t>(std::ranges::count_if(slots, has_map));
   const auto frequent = std::ranges::count_if(kFrequent, [&](MaterialTexture texture) {
-    return has_map((*this)[texture]) && (*this)[texture].shares_address;
+    return has_map((*this)[texture]) && (*this)[texture].use->uv_set == 0;
   });
-  return count != static_cast<std::size_t>(frequent) ||
-         (has_map(layout) && layout.use->uv_set != 0);
+  return count != static_cast<std::size_t>(frequent);
+}
+
+void TexturedMaterial::fetch(const TexelAddress<1>& address) const {
+  for (const MaterialTexture texture : kFrequent) {
+    const TextureSlot& slot = (*this)[texture];
+    if (slot.shares_address) slot.map->fetch(address);
+  }
 }
 
 Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables)
@@ -102,6 +110,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     const bool may_be_dark = !look.is_emissive() || look[MaterialTexture::emissive].map != nullptr;
     look.is_simple = !material.unlit && may_be_dark && !material.specular_glossiness;
     look.varies = look.is_textured || material.alpha_mode != AlphaMode::opaque;
+    if (look.varies) set_kernel_surfaces(look);
   };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
@@ -121,7 +130,9 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
       }
       look = *closed[look];
     }
-    entries_.push_back({.mesh = std::get_if<Mesh>(&object.shape), .first_id = first, .look = look});
+    const Mesh* const mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh != nullptr && !mesh->colors.empty()) set_kernel_surfaces(looks_[look]);
+    entries_.push_back({.mesh = mesh, .first_id = first, .look = look});
     first += static_cast<PrimitiveId>(primitive_count(object.shape));
     all_cover_ &= looks_[entries_.back().look].is_opaque;
     has_open_backs_ |= looks_[entries_.back().look].has_open_back;
@@ -209,8 +220,13 @@ bool Shading::is_opaque_part(const ShadingPoint& point) {
 
 float Shading::coverage(const Material& material, float alpha) {
   if (material.alpha_mode == AlphaMode::opaque) return 1;
-  if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1 : 0;
+  if (material.alpha_mode == AlphaMode::mask) return alpha >= covering_alpha(material) ? 1 : 0;
   return std::clamp(alpha, 0.0F, 1.0F);
+}
+
+float Shading::covering_alpha(const Material& material) {
+  if (material.alpha_mode == AlphaMode::opaque) return -std::numeric_limits<float>::infinity();
+  return material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : 1;
 }
 
 Vec3 Shading::emission(const ShadingPoint& point) const {
@@ -223,19 +239,14 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
          glm::min(color, Vec3(kBrightest)) * Vec3(look[MaterialTexture::emissive].at(point));
 }
 
-void Shading::set_base(const Material& material, const Vec4& base_color,
-                       const Vec4& metallic_roughness, bsdf::Parameters& p) {
-  p.base_color = glm::clamp(Vec3(base_color), Vec3(0), Vec3(1));
-  p.metallic = material.metallic * metallic_roughness.z;
-  p.roughness = material.roughness * metallic_roughness.y;
-}
-
 bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel,
                                      const Medium* outside) {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
-  bsdf::Parameters p;
-  set_base(m, base_color(point), look[MaterialTexture::metallic_roughness].at(point), p);
+  const Vec4 texel = look[MaterialTexture::metallic_roughness].at(point);
+  const bsdf::BaseSurface<1> base(Vec3(base_color(point)), m, texel.y, texel.z);
+  bsdf::Parameters p{
+      .base_color = base.color, .metallic = base.metallic, .roughness = base.roughness};
   if (m.ior != 1.5F) p.dielectric.f0 = Vec3(head_on_reflectance(m.ior));
   if (outside != nullptr && refracts(m)) p.dielectric = reflectance_between(look.medium, *outside);
   if (const auto& s = m.specular) {

@@ -7,6 +7,7 @@
 #include "render/shading/flat_triangles.hpp"
 #include "render/shading/surface_point.hpp"
 #include "render/textures/texture_map.hpp"
+#include "render/textures/textured_lanes.hpp"
 #include "scene/material_textures.hpp"
 #include "simd/vector_types.hpp"
 
@@ -38,10 +39,10 @@ struct TextureSlot {
   [[nodiscard]] Vec4 at(const ShadingPoint& point) const {
     return map == nullptr ? Vec4(1) : look_up(point);
   }
-  [[nodiscard]] TextureMap::TexelAddress texel_address(const ShadingPoint& point) const;
+  [[nodiscard]] TexelAddress<1> texel_address(const ShadingPoint& point) const;
   /// The texel address at a point of the mesh's texture coordinates. `width` is the footprint's
   /// width in these coordinates.
-  [[nodiscard]] TextureMap::TexelAddress texel_address(const Vec2& uv, float width) const;
+  [[nodiscard]] TexelAddress<1> texel_address(const Vec2& uv, float width) const;
 
  private:
   [[nodiscard]] Vec4 look_up(const ShadingPoint& point) const;
@@ -86,8 +87,16 @@ struct TexturedMaterial {
   /// opaque parts.
   bool is_opaque = false;
   /// The BSDF's input for white texels, if it depends on nothing but textures of kFrequent with
-  /// shares_address on meshes without vertex colors.
+  /// texture coordinates of set 0 on meshes without vertex colors.
   std::optional<BsdfInput> constant_but_textures{};
+  /// The material for kernels. Except for camera rays, emission and alpha are those of
+  /// ShadingPoint::unfiltered().
+  struct KernelSurfaces {
+    TexturedSurface from_camera, from_others;
+  };
+  /// Set if constant_but_textures is set and either the material varies or meshes with it have
+  /// vertex colors.
+  std::shared_ptr<const KernelSurfaces> kernel_surfaces{};
 
   [[nodiscard]] TextureSlot& operator[](MaterialTexture texture) {
     return slots[static_cast<std::size_t>(texture)];
@@ -96,10 +105,10 @@ struct TexturedMaterial {
     return slots[static_cast<std::size_t>(texture)];
   }
 
-  /// True if a texture needs a texel address of its own, or is not one of kFrequent.
+  /// True if a texture is not one of kFrequent, or uses other texture coordinates than set 0.
   [[nodiscard]] bool has_rare_textures() const;
   /// Prefetches the texels of all slots with shares_address.
-  void fetch(const TextureMap::TexelAddress& address) const;
+  void fetch(const TexelAddress<1>& address) const;
 
   [[nodiscard]] bool is_emissive() const { return microtrace::is_emissive(*material); }
 };
@@ -110,7 +119,7 @@ struct ShadingPoint {
   const TexturedMaterial* look = nullptr;
   float width = 0;  ///< footprint width in world space
   /// The texel address that slots share, if it has been computed.
-  std::optional<TextureMap::TexelAddress> texel_address{};
+  std::optional<TexelAddress<1>> texel_address{};
 
   /// The point with a footprint of width 0.
   [[nodiscard]] ShadingPoint unfiltered() const { return {.at = at, .look = look}; }
@@ -120,11 +129,6 @@ struct ShadingPoint {
 [[nodiscard]] inline bool has_back(const Material& m) {
   return m.double_sided || encloses_medium(m);
 }
-
-/// The texels of kFrequent for the points of a HitGroup; 1 for textures that a material lacks.
-struct FrequentTexels {
-  std::array<Vec4, kShadingLanes> base_color, metallic_roughness, normal, emissive;
-};
 
 class SharedTables;
 class TextureMaps;
@@ -148,11 +152,6 @@ class Shading {
   /// The shading point in a lane of a group, for which find_points() was called. Its width is 0.
   [[nodiscard]] ShadingPoint point(const HitGroup& group, int lane, const Ray& ray,
                                    const Hit& hit) const;
-  /// Looks up the textures of lanes whose materials have constant_but_textures. `widths` are the
-  /// footprints' widths in world space. Except for camera rays, emission and alpha are those of
-  /// ShadingPoint::unfiltered().
-  static void look_up(const HitGroup& group, Lanes lanes, const LaneFloats& widths,
-                      bool from_camera, FrequentTexels& texels);
 
   /// A point on a mesh triangle without a ray, for evaluating emission. For other shapes, on which
   /// emission is constant, only the side is set.
@@ -163,11 +162,6 @@ class Shading {
     return *looks_[entries_[primitives_.object_index(id)].look].material;
   }
 
-  /// Sets the parameters that depend on the base color and the texel of the metallic-roughness
-  /// texture.
-  static void set_base(const Material& material, const Vec4& base_color,
-                       const Vec4& metallic_roughness, bsdf::Parameters& p);
-
   /// Computes the texel address that textures share at the point, and prefetches the texels.
   static void find_texel_address(ShadingPoint& point);
 
@@ -176,6 +170,8 @@ class Shading {
   [[nodiscard]] float coverage(const ShadingPoint& point, bool from_camera) const;
   /// The opacity of a visible side where the base color has this alpha.
   [[nodiscard]] static float coverage(const Material& material, float alpha);
+  /// The least alpha for which coverage() is 1.
+  [[nodiscard]] static float covering_alpha(const Material& material);
 
   /// True if TexturedMaterial::is_opaque is true for the materials of all objects.
   [[nodiscard]] bool all_cover() const { return all_cover_; }

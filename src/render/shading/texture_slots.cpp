@@ -1,14 +1,16 @@
 #include "render/shading/texture_slots.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace microtrace {
 
-TextureMap::TexelAddress TextureSlot::texel_address(const ShadingPoint& point) const {
+TexelAddress<1> TextureSlot::texel_address(const ShadingPoint& point) const {
   return texel_address(point.at.uv(use->uv_set), point.width * point.at.uv_scale);
 }
 
-TextureMap::TexelAddress TextureSlot::texel_address(const Vec2& uv, float width) const {
+TexelAddress<1> TextureSlot::texel_address(const Vec2& uv, float width) const {
   const auto& m = use->texture_from_uv;
   return map->texel_address(m[0] * uv.x + m[1] * uv.y + m[2], width * width_scale);
 }
@@ -49,6 +51,56 @@ TexturedMaterial TextureMaps::slots(const Material& m) {
                           slot.use->texture_from_uv == look.layout.use->texture_from_uv;
   }
   return look;
+}
+
+namespace {
+
+/// Adds a lookup to a surface.
+void add_read(TexturedSurface& surface, const TextureSlot& slot, TexelValue value,
+              bool is_filtered) {
+  if (slot.map == nullptr) return;
+  const auto& m = slot.use->texture_from_uv;
+  const TexelLayout layout{.grid = slot.map->grid(),
+                           .grid_from_uv = {{m[0].x, m[0].y}, {m[1].x, m[1].y}, {m[2].x, m[2].y}},
+                           .width_scale = is_filtered ? slot.width_scale : 0};
+  TexelLayout* const end = surface.layouts + surface.layout_count;
+  TexelLayout* const place = std::find(surface.layouts, end, layout);
+  if (place == end) {
+    *place = layout;
+    ++surface.layout_count;
+  }
+  surface.reads[surface.read_count++] = {.texels = slot.map->texels(),
+                                         .layout = static_cast<int>(place - surface.layouts),
+                                         .value = static_cast<int>(value)};
+}
+
+TexturedSurface kernel_surface(const TexturedMaterial& look, bool from_camera) {
+  const Material& m = *look.material;
+  TexturedSurface surface{.metallic = m.metallic,
+                          .roughness = m.roughness,
+                          .normal_scale = m.normal_scale,
+                          .covering_alpha = Shading::covering_alpha(m)};
+  for (glm::length_t i = 0; i < 4; ++i) surface.base_color[i] = m.base_color[i];
+  for (glm::length_t i = 0; i < 3; ++i) surface.emission[i] = m.emissive[i];
+  const auto add = [&](MaterialTexture texture, TexelValue value, bool is_filtered) {
+    add_read(surface, look[texture], value, is_filtered);
+  };
+  add(MaterialTexture::base_color, TexelValue::base_color, true);
+  add(MaterialTexture::metallic_roughness, TexelValue::metallic_roughness, true);
+  add(MaterialTexture::normal, TexelValue::normal, true);
+  if (look.is_emissive()) add(MaterialTexture::emissive, TexelValue::emission, from_camera);
+  if (m.alpha_mode != AlphaMode::opaque)
+    add(MaterialTexture::base_color, TexelValue::alpha, from_camera);
+  return surface;
+}
+
+}  // namespace
+
+void set_kernel_surfaces(TexturedMaterial& look) {
+  if (!look.constant_but_textures || look.kernel_surfaces) return;
+  look.kernel_surfaces =
+      std::make_shared<const TexturedMaterial::KernelSurfaces>(TexturedMaterial::KernelSurfaces{
+          .from_camera = kernel_surface(look, true), .from_others = kernel_surface(look, false)});
 }
 
 }  // namespace microtrace

@@ -31,4 +31,7 @@ class TextureMaps {
   std::map<std::pair<std::uint32_t, ColorEncoding>, TextureMap> maps_;
 };
 
+/// Sets look.kernel_surfaces if it is not set and look.constant_but_textures is.
+void set_kernel_surfaces(TexturedMaterial& look);
+
 }  // namespace microtrace

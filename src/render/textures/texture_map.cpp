@@ -35,6 +35,12 @@ std::uint32_t wrapped_pixel(std::int64_t i, std::int64_t size, Wrap wrap) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, size - 1));
 }
 
+TexelGrid::Axis axis_of(std::uint32_t size, Wrap wrap) {
+  return {.size = static_cast<std::int32_t>(size),
+          .is_repeated = wrap == Wrap::repeat,
+          .is_mirrored = wrap == Wrap::mirrored_repeat};
+}
+
 }  // namespace
 
 TextureMap::TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding)
@@ -45,11 +51,17 @@ TextureMap::TextureMap(const Image& image, const Sampler& sampler, ColorEncoding
 TextureMap::TextureMap(const std::shared_ptr<TexturePyramid>& pyramid, const Sampler& sampler)
     : pyramid_(pyramid), image_(pyramid->image()), sampler_(sampler) {
   is_wide_ = std::holds_alternative<std::vector<std::uint16_t>>(image_.samples);
-  image_samples_ =
-      std::visit([](const auto& samples) -> const void* { return samples.data(); }, image_.samples);
   color_table_ = pyramid->color_table();
   alpha_table_ = pyramid->alpha_table();
   if (sampler.mip != MipFilter::none) levels_ = pyramid->levels();
+  level_samples_.push_back(std::visit(
+      [](const auto& samples) -> const void* { return samples.data(); }, image_.samples));
+  for (const TexturePyramid::Level& level : levels_) level_samples_.push_back(level.samples.data());
+  grid_ = {.x = axis_of(image_.width, sampler.wrap_s),
+           .y = axis_of(image_.height, sampler.wrap_t),
+           .last_level = static_cast<std::int32_t>(levels_.size()),
+           .is_nearest_magnified = sampler.magnification == Filter::nearest,
+           .is_nearest_minified = sampler.minification == Filter::nearest};
 }
 
 DVec2 TextureMap::level_size(std::size_t level) const {
@@ -115,6 +127,11 @@ DVec4 TextureMap::look_up(const DVec2& uv, const TextureFootprint& footprint) co
     sum += width > 1 ? minified(place, width) : filtered(0, sampler_.magnification, place);
   }
   return sum / static_cast<double>(probes);
+}
+
+Vec4 TextureMap::sample(const TexelAddress<1>& address) const {
+  const FourFloats texel = read_texel(texels(), address);
+  return {texel[0], texel[1], texel[2], texel[3]};
 }
 
 }  // namespace microtrace

@@ -1,6 +1,9 @@
 #pragma once
 /// Texture lookups.
 
+#include "render/textures/read_texel.hpp"
+#include "render/textures/texel_address.hpp"
+#include "render/textures/texels.hpp"
 #include "render/textures/texture_pyramid.hpp"
 
 #include <microtrace/math.hpp>
@@ -10,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace microtrace {
 
@@ -42,24 +46,25 @@ class TextureMap {
     return sample(texel_address(uv, width));
   }
 
-  /// Two neighboring texels of a row or a column, and the interpolation weight of the second.
-  struct Between {
-    std::int32_t first, second;
-    float share;
-  };
-  /// The texels that a sample() call reads.
-  struct TexelAddress {
-    std::size_t level;
-    std::uint32_t columns;  ///< width of the level
-    Between x, y;
-  };
-  [[nodiscard]] TexelAddress texel_address(const Vec2& uv, float width) const;
-  [[nodiscard]] Vec4 sample(const TexelAddress& address) const;
+  /// The address of the texels that sample() reads.
+  [[nodiscard]] TexelAddress<1> texel_address(const Vec2& uv, float width) const {
+    return microtrace::texel_address<1>(grid_, uv.x, uv.y, width);
+  }
+  [[nodiscard]] Vec4 sample(const TexelAddress<1>& address) const;
   /// Prefetches the texels at this address.
-  void fetch(const TexelAddress& address) const;
+  void fetch(const TexelAddress<1>& address) const { prefetch_texel(texels(), address); }
 
   /// True if both maps have equal texel addresses for equal texture coordinates.
-  [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const;
+  [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const { return grid_ == other.grid_; }
+  [[nodiscard]] const TexelGrid& grid() const { return grid_; }
+  /// Valid as long as this object.
+  [[nodiscard]] Texels texels() const {
+    return {.levels = level_samples_.data(),
+            .color = color_table_.data(),
+            .alpha = alpha_table_.data(),
+            .channels = image_.channels,
+            .is_wide = is_wide_};
+  }
 
   static constexpr int kMaxProbes = 8;
 
@@ -75,8 +80,9 @@ class TextureMap {
   Sampler sampler_;
   std::span<const float> color_table_, alpha_table_;  // tables of the pyramid
   std::span<const TexturePyramid::Level> levels_;     // the levels that the sampler uses
-  const void* image_samples_;                         // the image's samples, 8 or 16 bits each
-  bool is_wide_;
+  bool is_wide_;                                      // true if the image's samples have 16 bits
+  std::vector<const void*> level_samples_;            // of the image and of these levels
+  TexelGrid grid_;
 };
 
 }  // namespace microtrace
