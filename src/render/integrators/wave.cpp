@@ -106,6 +106,7 @@ void Wave::step() {
     vertices_.add(step_, *paths_, first, outgoing);
   }
   vertices_.finish(step_, outgoing);
+  escape();
   count_ = outgoing.count;
   std::fill_n(next_paths_->t_min, count_, 0.0F);
   std::fill_n(next_paths_->t_max, count_, std::numeric_limits<float>::infinity());
@@ -130,7 +131,10 @@ void Wave::step(std::size_t first) {
   }
   group.vertices = group.mapped = 0;
   if (hits.hit != 0) escaped |= meet_surfaces(first);
-  if (escaped != 0) escape(first, escaped);
+  for (; escaped != 0; escaped &= escaped - 1) {
+    escaped_[escaped_count_++] =
+        static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(escaped));
+  }
 }
 
 }  // namespace microtrace

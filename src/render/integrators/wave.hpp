@@ -107,8 +107,11 @@ class Wave {
   [[nodiscard]] Vec3 emission(std::size_t i, const ShadingPoint& point) const;
   /// Adds the light that the surface emits toward path i.
   void add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point);
-  /// Adds the light of the environment that the paths in these lanes reach.
-  void escape(std::size_t first, Lanes lanes);
+  /// Adds the light of the environment and of the ground that escaped_ paths reach, and clears
+  /// escaped_.
+  void escape();
+  /// Adds the light of the environment that up to kShadingLanes paths reach.
+  void add_environment(std::span<const std::uint32_t> escaped);
   /// Finds the y coordinate of the ground, if there is one, in scene coordinates.
   [[nodiscard]] std::optional<float> find_ground() const;
   /// Samples the light at the point where the ray of path i meets the ground, if it does.
@@ -174,6 +177,9 @@ class Wave {
   std::array<Vec3, kRandomBatch> colors_;
   std::array<float, kRandomBatch> alphas_;
   TexturedLanes textured_;
+  // Paths that leave the scene at this bounce. Few of a group do, so they are collected.
+  std::array<std::uint32_t, kRandomBatch> escaped_;
+  std::size_t escaped_count_ = 0;
   Lighting::Escapes escapes_;
   // The input of a BSDF with textures. A local variable would be cleared for each vertex.
   std::optional<BsdfInput> varying_;

@@ -5,9 +5,8 @@
 #include "render/kernels/lane_access.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -31,26 +30,39 @@ void Wave::add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point
   colors_[paths.slot[i]] += vector_of(paths.throughput, i) * emission * weight;
 }
 
-void Wave::escape(std::size_t first, Lanes lanes) {
-  const PathColumns& paths = *paths_;
+void Wave::escape() {
   const bool from_camera = step_.depth == 1;
-  for (Lanes rest = from_camera && ground_ ? lanes : 0; rest != 0; rest &= rest - 1)
-    meet_ground(first + static_cast<std::size_t>(std::countr_zero(rest)));
+  const std::span escaped = std::span(escaped_).first(std::exchange(escaped_count_, 0));
+  if (from_camera && ground_) {
+    for (const std::uint32_t i : escaped) meet_ground(i);
+  }
   // An environment that is not seen is composited later.
   if (!lighting_->has_environment() || (from_camera && !lighting_->is_seen())) return;
+  for (std::size_t first = 0; first < escaped.size(); first += kShadingLanes) {
+    const std::size_t count = std::min<std::size_t>(escaped.size() - first, kShadingLanes);
+    add_environment(escaped.subspan(first, count));
+  }
+}
+
+void Wave::add_environment(std::span<const std::uint32_t> escaped) {
+  const PathColumns& paths = *paths_;
+  const bool from_camera = step_.depth == 1;
   MapLanes<kShadingLanes>& lights = escapes_.lights;
   LightChoices<kShadingLanes>& origins = escapes_.origins;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::memcpy(lights.d[axis], paths.d[axis] + first, sizeof(LaneFloats));
-    std::memcpy(origins.p[axis], paths.from_p[axis] + first, sizeof(LaneFloats));
-    std::memcpy(origins.n[axis], paths.from_n[axis] + first, sizeof(LaneFloats));
+  for (std::size_t lane = 0; lane < escaped.size(); ++lane) {
+    const std::size_t i = escaped[lane];
+    for (int axis = 0; axis < 3; ++axis) {
+      lights.d[axis][lane] = paths.d[axis][i];
+      origins.p[axis][lane] = paths.from_p[axis][i];
+      origins.n[axis][lane] = paths.from_n[axis][i];
+    }
   }
-  lighting_->environment(*kernels_, lanes, from_camera, escapes_);
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = std::countr_zero(lanes);
-    const std::size_t i = first + static_cast<std::size_t>(lane);
+  lighting_->environment(*kernels_, (Lanes{1} << escaped.size()) - 1, from_camera, escapes_);
+  for (std::size_t lane = 0; lane < escaped.size(); ++lane) {
+    const std::size_t i = escaped[lane];
     const std::uint32_t slot = paths.slot[i];
-    const Vec3 light = vector_of(paths.throughput, i) * got(lights.radiance, lane);
+    const Vec3 light =
+        vector_of(paths.throughput, i) * got(lights.radiance, static_cast<int>(lane));
     if (from_camera) {
       colors_[slot] += light;
       alphas_[slot] = 1;
