@@ -48,7 +48,7 @@ class Slurm(ProgramTest):
         for _ in range(600):
             found = children.read_text().split()
             if found and Path(f"/proc/{found[0]}/exe").resolve() == Path(PROGRAM).resolve():
-                time.sleep(0.2)  # until the script has set its trap, and rendering has begun
+                time.sleep(0.2)  # until rendering has begun
                 return int(found[0])
             time.sleep(0.05)
         self.fail("the program doesn't start")
@@ -110,6 +110,24 @@ class Slurm(ProgramTest):
         task.send_signal(signal.SIGTERM)
         self.finish(task)
         self.assertEqual(self.requeued(), ["requeue 71_3"])
+
+    def test_signals_at_any_command_queue_the_task_again(self):
+        """BASH_ENV makes the shell signal itself before one of the script's commands."""
+        program, commands = self.folder / "sleeper", self.folder / "commands"
+        program.write_text("#!/bin/sh\nexec sleep 60\n")
+        program.chmod(0o755)
+        (self.folder / "env").write_text(
+            "step_number=0\n"
+            "trap 'step_number=$((step_number + 1)); echo \"$BASH_COMMAND\" >>commands; [[ $step_number != \"$SIGNAL_AT\" ]] || kill -TERM $$' DEBUG\n")
+        variables = {"BASH_ENV": str(self.folder / "env"), "MICROTRACE": str(program)}
+        self.finish(self.start(0, "x", **{**variables, "MICROTRACE": "true", "SIGNAL_AT": "0"}))
+        names = commands.read_text().splitlines()
+        trap, wait = (next(i for i, name in enumerate(names) if name.startswith(word)) for word in ("trap ", "wait "))
+        self.assertGreater(wait - trap, 5)
+        self.assertTrue(all("=" in name or name == "set -u" for name in names[:trap]), "nothing takes time before the trap")
+        for k in range(trap + 1, wait + 1):
+            self.finish(self.start(0, "x", **variables, SIGNAL_AT=str(k + 1)))
+            self.assertEqual(self.requeued(), ["requeue 71_3"], names[k])
 
     def test_a_program_that_is_hung_up_saves_its_samples_and_is_not_queued_again(self):
         command = [SCENE, "--integrator", "path", "--spp", "12000", "--size", "64x48", "--checkpoint", "part{}", "--save-every", "0"]
