@@ -3,12 +3,33 @@
 from __future__ import annotations
 
 import operator
+import os
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[Any]
+
+#: The greatest integer that C++ code takes.
+MOST = 2**63 - 1
+
+
+def as_array(values: Any, what: str) -> Array:
+    """Converts lists, and objects that NumPy converts. Raises ValueError for lists of unequal
+    lengths."""
+    try:
+        return np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{what} can't be converted to an array: {error}") from None
+
+
+def as_reals(values: Any, what: str) -> Array:
+    """Returns an array of real numbers of any shape and type. Raises TypeError for others."""
+    array = as_array(values, what)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{what} must contain real numbers, not {array.dtype}")
+    return array
 
 
 def as_numbers(values: Any, what: str, width: int) -> Array:
@@ -17,9 +38,7 @@ def as_numbers(values: Any, what: str, width: int) -> Array:
     Neither copies nor converts float32 and float64 arrays. Raises ValueError for a different width,
     and TypeError for anything but real numbers.
     """
-    array: Array = np.asarray(values)
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{what} must contain real numbers, not {array.dtype}")
+    array = as_reals(values, what)
     if array.ndim == 0 or array.shape[-1] != width:
         raise ValueError(f"{what} must have shape (..., {width}), not {array.shape}")
     if array.dtype.kind == "f" and array.dtype.itemsize in (4, 8):
@@ -36,18 +55,18 @@ def as_float32(values: npt.ArrayLike) -> npt.NDArray[np.float32]:
 
 def as_rows(values: Any, what: str, width: int) -> Array:
     """Like as_numbers(), for shape (n, width) and with strides that C++ code can read."""
-    shape = np.shape(values)
-    if len(shape) == 1 and shape[0] == 0:
+    array = as_array(values, what)
+    if array.shape == (0,):
         return np.zeros((0, width), np.float32)
-    if len(shape) != 2 or shape[1] != width:
-        raise ValueError(f"{what} must have shape (n, {width}), not {shape}")
-    return readable(as_numbers(values, what, width))
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"{what} must have shape (n, {width}), not {array.shape}")
+    return readable(as_numbers(array, what, width))
 
 
 def as_indices(values: Any, what: str, width: int) -> Array:
     """Returns an array of shape (n, width) of 32-bit or 64-bit integers. Raises like
     as_numbers()."""
-    array: Array = np.asarray(values)
+    array = as_array(values, what)
     if array.size == 0 and array.ndim < 2:
         array = np.zeros((0, width), np.uint32)
     if array.dtype.kind not in "iu":
@@ -64,9 +83,7 @@ def as_indices(values: Any, what: str, width: int) -> Array:
 def as_affine(values: Any, what: str) -> list[float]:
     """Returns the columns of an affine (3, 4) or (4, 4) matrix as 16 numbers. Raises ValueError for
     another shape, another last row than (0, 0, 0, 1), or numbers that are not finite."""
-    matrix: Array = np.asarray(values)
-    if matrix.dtype.kind not in "fiu":
-        raise TypeError(f"{what} must contain real numbers, not {matrix.dtype}")
+    matrix = as_reals(values, what)
     if matrix.shape not in ((3, 4), (4, 4)):
         raise ValueError(f"{what} must have shape (3, 4) or (4, 4), not {matrix.shape}")
     whole = np.identity(4)
@@ -92,7 +109,8 @@ def as_integer(value: Any, what: str, low: int, high: int) -> int:
     except TypeError:
         raise TypeError(f"{what} must be an integer, not {value!r}") from None
     if not low <= number <= high:
-        raise ValueError(f"{what} must be from {low} to {high}, not {number}")
+        limits = f"at least {low}" if number < low and high == MOST else f"from {low} to {high}"
+        raise ValueError(f"{what} must be {limits}, not {number}")
     return number
 
 
@@ -101,20 +119,25 @@ def as_real(value: Any, what: str, low: float, high: float, accepted: str = "a n
 
     accepted describes the values that the caller accepts, for messages.
     """
-    try:
-        if isinstance(value, (str, bytes)):
-            raise TypeError  # float() would convert texts
-        number = float(value)
-    except (TypeError, ValueError):
-        raise TypeError(f"{what} must be {accepted}, not {value!r}") from None
+    number = as_float(value, what, accepted)
     if not low <= number <= high:
         raise ValueError(f"{what} must be from {low} to {high}, not {number}")
     return number
 
 
+def as_float(value: Any, what: str, accepted: str = "a number") -> float:
+    """Returns a number, possibly NaN. Raises TypeError otherwise."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError  # float() would convert texts
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} must be {accepted}, not {value!r}") from None
+
+
 def as_size(value: Any) -> tuple[int, int]:
     """Returns width and height in pixels."""
-    if np.shape(value) != (2,):
+    if as_array(value, "size").shape != (2,):
         raise ValueError(f"size must be a width and a height, not {value!r}")
     width, height = (as_integer(v, "size", 1, 65536) for v in value)
     return width, height
@@ -122,11 +145,47 @@ def as_size(value: Any) -> tuple[int, int]:
 
 def as_crop(value: Any, size: tuple[int, int]) -> tuple[int, int, int, int]:
     """Returns x0, y0, x1, y1 of a part of a picture of this size, which must not be empty."""
-    if len(value) != 4:
+    if as_array(value, "crop").shape != (4,):
         raise ValueError(f"crop must be (x0, y0, x1, y1), not {value!r}")
     x1, y1 = (as_integer(v, "crop", 1, n) for v, n in zip(value[2:], size))
     x0, y0 = (as_integer(v, "crop", 0, n - 1) for v, n in zip(value[:2], (x1, y1)))
     return x0, y0, x1, y1
+
+
+def as_text(value: Any, what: str) -> str:
+    """Returns a str. Raises TypeError for anything else."""
+    if not isinstance(value, str):
+        raise TypeError(f"{what} must be a str, not {value!r}")
+    return value
+
+
+def as_names(values: Any, what: str) -> list[str]:
+    """Returns a list of names without repetitions, from one name or several."""
+    try:
+        names = [values] if isinstance(values, str) else list(values)
+    except TypeError:
+        raise TypeError(f"{what} must be a name or several, not {values!r}") from None
+    return list(dict.fromkeys(as_text(name, f"a name in {what}") for name in names))
+
+
+def as_path(value: Any, what: str) -> str:
+    """Returns a path as text. Raises TypeError or ValueError for what can't be a path."""
+    try:
+        path = os.fsdecode(value)
+    except TypeError:
+        kind = type(value).__name__
+        raise TypeError(f"{what} must be a str, bytes or os.PathLike object, not {kind}") from None
+    if "\0" in path:
+        raise ValueError(f"{what} must not contain null characters, is {path!r}")
+    return path
+
+
+def as_instance(value: Any, what: str, *kinds: type) -> Any:
+    """Returns the value. Raises TypeError if it has none of these types."""
+    if not isinstance(value, kinds):
+        names = " or ".join(f"microtrace.{kind.__name__}" for kind in kinds)
+        raise TypeError(f"{what} must be a {names}, not {type(value).__name__}")
+    return value
 
 
 def as_threads(value: Any) -> int:
@@ -134,10 +193,10 @@ def as_threads(value: Any) -> int:
     return as_integer(value, "threads", 0, 65536)
 
 
-def as_color(value: Any, what: str) -> tuple[float, float, float]:
+def as_vector(value: Any, what: str) -> tuple[float, float, float]:
     """Returns three finite numbers."""
-    numbers = np.asarray(value, np.float64)
+    numbers = as_reals(value, what)
     if numbers.shape != (3,) or not np.isfinite(numbers).all():
         raise ValueError(f"{what} must have 3 finite numbers, not {value!r}")
-    red, green, blue = map(float, numbers)
-    return red, green, blue
+    x, y, z = map(float, numbers)
+    return x, y, z

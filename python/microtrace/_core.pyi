@@ -136,9 +136,8 @@ def render(
     camera: Camera,
     outputs: dict[str, Array],
     arguments: dict[str, Any],
-    /,
 ) -> str: ...
-def automatic_exposure(scene: Prepared, camera: Camera, arguments: dict[str, Any], /) -> float: ...
+def automatic_exposure(scene: Prepared, camera: Camera, arguments: dict[str, Any]) -> float: ...
 def save(
     color: Array,
     exposure: float,

@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import as_real, as_reals, as_size, as_vector
 from ._brief import Brief
 
 Vector = tuple[float, float, float]
@@ -105,10 +106,22 @@ def look_at(
 ) -> PerspectiveCamera:
     """Returns a perspective camera at `eye` that looks at `target`. The field of view is in
     degrees."""
-    x, y, z = (float(t) - float(e) for t, e in zip(target, eye, strict=True))
+    position = as_vector(eye, "eye")
+    x, y, z = (t - e for t, e in zip(as_vector(target, "target"), position))
     return PerspectiveCamera(
-        position=eye, direction=(x, y, z), up=up, vertical_fov=radians(vertical_fov_degrees)
+        position=position,
+        direction=(x, y, z),
+        up=as_vector(up, "up"),
+        vertical_fov=radians(as_degrees(vertical_fov_degrees)),
     )
+
+
+def as_degrees(vertical_fov: Any) -> float:
+    """Returns a vertical field of view in degrees."""
+    degrees = as_real(vertical_fov, "vertical_fov_degrees", 0, 180)
+    if not 0 < degrees < 180:
+        raise ValueError(f"vertical_fov_degrees must be in (0, 180), is {degrees}")
+    return degrees
 
 
 def cameras(
@@ -139,14 +152,15 @@ def cameras(
         ValueError: a matrix has a wrong shape, K has skew, T is not rigid, or a distortion
             coefficient is not supported.
     """
-    if convention not in ("opencv", "opengl"):
+    if not isinstance(convention, str) or convention not in ("opencv", "opengl"):
         raise ValueError(f'convention must be "opencv" or "opengl", not {convention!r}')
     intrinsic = _matrices(K, 3, "K")
     extrinsic = _matrices(T, 4, "T")
     count = max(len(intrinsic), len(extrinsic))
     if len(intrinsic) not in (1, count) or len(extrinsic) not in (1, count):
         raise ValueError(f"K and T must have the same length: {len(intrinsic)}, {len(extrinsic)}")
-    model = _distortion(np.asarray(distortion, np.float64).ravel(), fisheye)
+    size = as_size(size)
+    model = _distortion(_coefficients(distortion, "distortion"), fisheye)
     return [
         _calibrated(
             intrinsic[k % len(intrinsic)], extrinsic[k % len(extrinsic)], size, convention, model
@@ -156,7 +170,7 @@ def cameras(
 
 
 def _matrices(values: npt.ArrayLike, width: int, name: str) -> npt.NDArray[np.float64]:
-    array = np.asarray(values, np.float64)
+    array = as_reals(values, name).astype(np.float64)
     if array.ndim not in (2, 3) or array.shape[-2:] != (width, width):
         raise ValueError(
             f"{name} must have shape ({width}, {width}) or (N, {width}, {width}), not {array.shape}"
@@ -168,7 +182,7 @@ def _distortion(
     rational: npt.NDArray[np.float64], fisheye: npt.ArrayLike | None
 ) -> RationalDistortion | FisheyeDistortion:
     if fisheye is not None:
-        numbers = np.asarray(fisheye, np.float64).ravel()
+        numbers = _coefficients(fisheye, "fisheye")
         if rational.any():
             raise ValueError("give either distortion or fisheye")
         if len(numbers) != 4:
@@ -179,6 +193,10 @@ def _distortion(
     if rational[8:].any():
         raise ValueError("thin prisms and tilted sensors (coefficients 9 to 14) are not supported")
     return RationalDistortion(*map(float, rational[:8]))
+
+
+def _coefficients(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
+    return as_reals(values, name).astype(np.float64).ravel()
 
 
 def _calibrated(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import as_names
 from ._brief import text
 
 Array = npt.NDArray[Any]
@@ -111,9 +112,9 @@ class ClosestPoints(_Arrays):
 def output_arrays(fields: Iterable[str], count: int) -> dict[str, Array]:
     """Returns uninitialized arrays for these fields of `count` hits."""
     result: dict[str, Array] = {}
-    for name in [fields] if isinstance(fields, str) else fields:
+    for name in as_names(fields, "fields"):
         if name not in _LAYOUTS:
-            raise ValueError(f"unknown field {name!r}; use some of {', '.join(_LAYOUTS)}")
+            raise ValueError(f"unknown field {name!r} in fields; use {', '.join(_LAYOUTS)}")
         kind, width = _LAYOUTS[name]
         result[name] = np.empty((count, width) if width else (count,), kind)
     return result

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arrays import as_array, as_path, as_reals, as_text
 from .errors import warn
 
 
@@ -25,7 +26,9 @@ class Image:
     """
 
     def __init__(self, pixels: npt.ArrayLike, name: str = "") -> None:
-        array: npt.NDArray[Any] = np.asarray(pixels)
+        array = as_array(pixels, "pixels")
+        if array.ndim == 0:
+            raise TypeError(f"pixels must be an array of uint8 or uint16, not {pixels!r}")
         if array.dtype.newbyteorder("=") not in (np.uint8, np.uint16):
             raise TypeError(f"pixels must be uint8 or uint16, not {array.dtype}")
         if array.ndim == 2:
@@ -35,7 +38,7 @@ class Image:
                 f"pixels must have shape (height, width, 1 to 4) and not be empty: {array.shape}"
             )
         self._data = _core.ImageData(
-            np.ascontiguousarray(array, array.dtype.newbyteorder("=")), name
+            np.ascontiguousarray(array, array.dtype.newbyteorder("=")), as_text(name, "name")
         )
 
     @property
@@ -67,9 +70,7 @@ class RadianceMap:
     """
 
     def __init__(self, pixels: npt.ArrayLike) -> None:
-        array: npt.NDArray[Any] = np.asarray(pixels)
-        if array.dtype.kind not in "fiu":
-            raise TypeError(f"pixels must contain real numbers, not {array.dtype}")
+        array = as_reals(pixels, "pixels")
         if array.ndim != 3 or array.shape[2] != 3 or array.size == 0:
             raise ValueError(f"pixels must have shape (height, width, 3), not {array.shape}")
         self._data = _core.MapData(np.ascontiguousarray(array, np.float32))
@@ -99,7 +100,7 @@ def load_map(path: str | PathLike[str]) -> RadianceMap:
     Raises:
         FileError, LimitError, UnsupportedError.
     """
-    data, diagnostics = _core.load_map(path)
+    data, diagnostics = _core.load_map(as_path(path, "path"))
     warn(diagnostics)
     return _map_of(data)
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import as_array, as_float, as_integer, as_real, as_reals, as_vector
 from .prepared import PreparedScene
 from .scene import Scene
 
@@ -52,7 +53,7 @@ class RaycastingScene:
     INVALID_ID = 0xFFFFFFFF
 
     def __init__(self, nthreads: int = 0, device: Any = None) -> None:
-        self._threads = nthreads
+        self._threads = as_integer(nthreads, "nthreads", 0, 65536)
         self._scene = Scene()
         self._prepared_scene: PreparedScene | None = None
 
@@ -92,7 +93,7 @@ class RaycastingScene:
         hits = self._prepared().intersect(
             _numbers(rays),
             fields=("t", "object", "primitive", "barycentrics", "face_normal"),
-            threads=nthreads or self._threads,
+            threads=self._count(nthreads),
         )
         return {
             "t_hit": _tensor(hits.t),
@@ -106,10 +107,13 @@ class RaycastingScene:
         self, rays: Any, tnear: float = 0.0, tfar: float = np.inf, nthreads: int = 0
     ) -> Tensor:
         """Returns True for each ray that hits anything at t in [tnear, tfar]."""
-        low = None if tnear <= 0 else np.float32(tnear)
+        near, far = as_float(tnear, "tnear"), as_float(tfar, "tfar")
         return _tensor(
             self._prepared().occluded(
-                _numbers(rays), t_min=low, t_max=tfar, threads=nthreads or self._threads
+                _numbers(rays),
+                t_min=None if near <= 0 else near,
+                t_max=far,
+                threads=self._count(nthreads),
             )
         )
 
@@ -141,9 +145,7 @@ class RaycastingScene:
     def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> dict[str, Tensor]:
         """Returns the point on the triangles that is nearest to each query point: points,
         geometry_ids, primitive_ids, primitive_uvs and primitive_normals."""
-        at = self._prepared().closest_point(
-            _numbers(query_points), threads=nthreads or self._threads
-        )
+        at = self._prepared().closest_point(_numbers(query_points), threads=self._count(nthreads))
         return {
             "points": _tensor(at.position.astype(np.float32)),
             "geometry_ids": _ids(at.object),
@@ -154,9 +156,7 @@ class RaycastingScene:
 
     def compute_distance(self, query_points: Any, nthreads: int = 0) -> Tensor:
         """Returns the distance of each point from the triangles, float32."""
-        at = self._prepared().closest_point(
-            _numbers(query_points), threads=nthreads or self._threads
-        )
+        at = self._prepared().closest_point(_numbers(query_points), threads=self._count(nthreads))
         return _tensor(at.distance.astype(np.float32))
 
     def compute_signed_distance(
@@ -164,7 +164,7 @@ class RaycastingScene:
     ) -> Tensor:
         """Returns the distance of each point from the triangles, negative inside, float32.
         `nsamples` has no effect, because one exact test is sufficient."""
-        points, threads = _numbers(query_points), nthreads or self._threads
+        points, threads = _numbers(query_points), self._count(nthreads)
         prepared = self._prepared()
         distance = prepared.closest_point(points, threads=threads).distance
         inside = prepared._locate(points, None, threads) > 0
@@ -172,7 +172,7 @@ class RaycastingScene:
 
     def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Tensor:
         """Returns 1 for points inside the triangles or on them, and 0 for others, float32."""
-        sides = self._prepared()._locate(_numbers(query_points), None, nthreads or self._threads)
+        sides = self._prepared()._locate(_numbers(query_points), None, self._count(nthreads))
         return _tensor((sides >= 0).astype(np.float32))
 
     @staticmethod
@@ -186,6 +186,9 @@ class RaycastingScene:
         is_matrix = "intrinsic_matrix" in kwargs or (bool(args) and np.ndim(_numbers(args[0])) == 2)
         return _rays_by_matrix(*args, **kwargs) if is_matrix else _rays_by_view(*args, **kwargs)
 
+    def _count(self, nthreads: int) -> int:
+        return as_integer(nthreads, "nthreads", 0, 65536) or self._threads
+
     def _prepared(self) -> PreparedScene:
         if self._prepared_scene is None:
             self._prepared_scene = self._scene.prepare(threads=self._threads)
@@ -193,9 +196,7 @@ class RaycastingScene:
 
     def _all(self, rays: Array, nthreads: int, fields: Any) -> tuple[Any, Array]:
         """Returns all hits, and for each hit whether it is the first of its ray at its t."""
-        found = self._prepared().intersect_all(
-            rays, fields=fields, threads=nthreads or self._threads
-        )
+        found = self._prepared().intersect_all(rays, fields=fields, threads=self._count(nthreads))
         t = found.t
         is_new = np.ones(len(t), bool)
         is_new[1:] = (found.ray[1:] != found.ray[:-1]) | (t[1:] != t[:-1])
@@ -219,11 +220,11 @@ class RaycastingScene:
 def _rays_by_matrix(
     intrinsic_matrix: Any, extrinsic_matrix: Any, width_px: int, height_px: int
 ) -> Tensor:
-    k = np.asarray(_numbers(intrinsic_matrix), np.float64)
-    t = np.asarray(_numbers(extrinsic_matrix), np.float64)
+    k = as_reals(_numbers(intrinsic_matrix), "intrinsic_matrix").astype(np.float64)
+    t = as_reals(_numbers(extrinsic_matrix), "extrinsic_matrix").astype(np.float64)
     if k.shape != (3, 3) or t.shape != (4, 4):
         raise ValueError(f"matrices must be 3 x 3 and 4 x 4, not {k.shape} and {t.shape}")
-    x, y = np.meshgrid(np.arange(width_px) + 0.5, np.arange(height_px) + 0.5)
+    x, y = _centers(width_px, height_px)
     y = (y - k[1, 2]) / k[1, 1]
     x = (x - k[0, 2] - k[0, 1] * y) / k[0, 0]
     rotation = t[:3, :3]
@@ -235,17 +236,25 @@ def _rays_by_matrix(
 def _rays_by_view(
     fov_deg: float, center: Any, eye: Any, up: Any, width_px: int, height_px: int
 ) -> Tensor:
-    position = np.asarray(_numbers(eye), np.float64)
-    forward = np.asarray(_numbers(center), np.float64) - position
+    position = np.array(as_vector(_numbers(eye), "eye"))
+    forward = np.array(as_vector(_numbers(center), "center")) - position
     forward /= np.sqrt((forward * forward).sum())
     # As in Open3D, rows are numbered upward and columns to the left.
-    left = np.cross(np.asarray(_numbers(up), np.float64), forward)
+    left = np.cross(as_vector(_numbers(up), "up"), forward)
     left /= np.sqrt((left * left).sum())
     upward = np.cross(forward, left)
-    focal = 0.5 * width_px / np.tan(0.5 * np.radians(fov_deg))
-    x, y = np.meshgrid(np.arange(width_px) + 0.5, np.arange(height_px) + 0.5)
+    fov = np.radians(as_real(fov_deg, "fov_deg", 0, 180))
+    x, y = _centers(width_px, height_px)
+    focal = 0.5 * width_px / np.tan(0.5 * fov)
     x, y = (x - 0.5 * width_px) / focal, (y - 0.5 * height_px) / focal
     return _rays_from(position, x[..., None] * left + y[..., None] * upward + forward)
+
+
+def _centers(width_px: Any, height_px: Any) -> list[Array]:
+    """Returns x and y of the pixels' centers."""
+    width = as_integer(width_px, "width_px", 0, 65536)
+    height = as_integer(height_px, "height_px", 0, 65536)
+    return list(np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5))
 
 
 def _rays_from(eye: Array, directions: Array) -> Tensor:
@@ -259,7 +268,7 @@ def _numbers(values: Any) -> Array:
     """Converts lists, arrays, and tensors of other libraries to arrays."""
     if isinstance(values, np.ndarray):
         return np.asarray(values)
-    return np.asarray(values.numpy() if hasattr(values, "numpy") else values)
+    return as_array(values.numpy() if hasattr(values, "numpy") else values, "values")
 
 
 def _arrays_of(mesh: Any) -> tuple[Any, Any]:
@@ -267,6 +276,8 @@ def _arrays_of(mesh: Any) -> tuple[Any, Any]:
     open3d.geometry.TriangleMesh, or a mesh of trimesh."""
     if hasattr(mesh, "vertex"):
         return mesh.vertex.positions, mesh.triangle.indices
+    if not hasattr(mesh, "vertices"):
+        raise TypeError(f"expected vertex positions and triangle indices, or a mesh, not {mesh!r}")
     return mesh.vertices, mesh.faces if hasattr(mesh, "faces") else mesh.triangles
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
@@ -13,8 +14,20 @@ import numpy.typing as npt
 from microtrace_program import find_denoiser
 
 from . import _core
-from ._arrays import as_color, as_crop, as_integer, as_real, as_size, as_threads
-from .cameras import Camera, PerspectiveCamera, Vector
+from ._arrays import (
+    as_crop,
+    as_float,
+    as_instance,
+    as_integer,
+    as_names,
+    as_path,
+    as_real,
+    as_size,
+    as_text,
+    as_threads,
+    as_vector,
+)
+from .cameras import Camera, PerspectiveCamera, Vector, as_degrees
 from .lights import Environment
 from .prepared import PreparedScene
 from .scene import Scene
@@ -150,6 +163,7 @@ class Picture(Mapping[str, Array]):
         """
         if self["color"].ndim != 3:
             raise ValueError("save one picture of the stack, such as picture.one(0)")
+        path = as_path(path, "path")
         is_exr = Path(path).suffix.lower() == ".exr"
         rest = {k: v for k, v in self.items() if k != "color"} if is_exr else {}
         settings = self._display(exposure, tone_map)
@@ -164,7 +178,11 @@ class Picture(Mapping[str, Array]):
         """
         if not self._is_stack:
             raise ValueError("this is a single picture, not a stack")
-        arrays = {k: v[index] for k, v in self.items()}
+        try:
+            number = operator.index(index)
+        except TypeError:
+            raise TypeError(f"index must be an integer, not {index!r}") from None
+        arrays = {k: v[number] for k, v in self.items()}
         return Picture(
             arrays,
             self._exposure,
@@ -177,7 +195,7 @@ class Picture(Mapping[str, Array]):
     def _display(self, exposure: float | None, tone_map: str | None) -> tuple[float, str]:
         return (
             self._exposure if exposure is None else as_real(exposure, "exposure", -64, 64),
-            self._tone_map if tone_map is None else tone_map,
+            self._tone_map if tone_map is None else as_text(tone_map, "tone_map"),
         )
 
     def _repr_png_(self) -> bytes | None:
@@ -210,14 +228,12 @@ def frame(
     Raises:
         ValueError: a number is out of range.
     """
-    if not 0 < as_real(vertical_fov_degrees, "vertical_fov_degrees", 0, 180) < 180:
-        raise ValueError("vertical_fov_degrees must be in (0, 180)")
     prepared = _prepared(scene)
     camera: PerspectiveCamera = _core.frame(
         prepared._core,
         as_real(azimuth, "azimuth", -1e9, 1e9),
         as_real(elevation, "elevation", -90, 90),
-        float(vertical_fov_degrees),
+        as_degrees(vertical_fov_degrees),
         prepared._core.size if size is None else as_size(size),
     )
     return camera
@@ -297,7 +313,8 @@ def render(
     prepared = _prepared(scene)
     size = prepared._core.size if size is None else as_size(size)
     wanted = _checked(aovs)
-    method = integrator or ("flat" if prepared._core.is_flat else "path")
+    default_method = "flat" if prepared._core.is_flat else "path"
+    method = default_method if integrator is None else as_text(integrator, "integrator")
     denoiser = _denoiser(wanted, method) if denoise else ""
     names = _with_features(wanted) if denoise else wanted
     if camera is None:
@@ -325,13 +342,13 @@ def render(
     arguments = {
         "size": size,
         "spp": None if spp is None else as_integer(spp, "spp", 1, 65536),
-        "integrator": integrator,
+        "integrator": method,
         "environment": environment,
-        "background": None if background is None else as_color(background, "background"),
-        "filter": filter,
+        "background": None if background is None else as_vector(background, "background"),
+        "filter": as_text(filter, "filter"),
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
         "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
-        "bsdf": bsdf,
+        "bsdf": as_text(bsdf, "bsdf"),
         "guiding": bool(guiding),
         "ground": _ground_arguments(ground, method),
         "crop": crop,
@@ -376,7 +393,7 @@ def _exposure(
     exposure: float | str | None, prepared: PreparedScene, integrator: str, names: list[str]
 ) -> float | None:
     """Returns the exposure in stops, or None for an automatic one."""
-    if exposure == "auto":
+    if isinstance(exposure, str) and exposure == "auto":
         return None
     if exposure is None:
         is_lit = integrator == "path" and "color" in names and prepared._core.has_lights
@@ -424,7 +441,7 @@ def _prepared(scene: Scene | PreparedScene) -> PreparedScene:
         return scene
     if isinstance(scene, Scene):
         return scene.prepare()
-    raise TypeError(f"expected a Scene or a PreparedScene, not {type(scene)}")
+    raise TypeError(f"expected a Scene or a PreparedScene, not {type(scene).__name__}")
 
 
 def _shutter_arguments(shutter: Shutter) -> tuple[Any, ...]:
@@ -432,15 +449,19 @@ def _shutter_arguments(shutter: Shutter) -> tuple[Any, ...]:
         scene, camera = shutter.moment(time)
         return _prepared(scene)._core, camera
 
+    as_instance(shutter, "shutter", Shutter)
+    if not callable(shutter.moment):
+        raise TypeError(f"moment must be a function of the time, not {shutter.moment!r}")
     times = as_integer(shutter.times, "times", 1, 65536)
-    return moment, float(shutter.open), float(shutter.close), times
+    ends = (as_float(getattr(shutter, end), end) for end in ("open", "close"))
+    return moment, *ends, times
 
 
 def _checked(aovs: Iterable[str]) -> list[str]:
-    names = [aovs] if isinstance(aovs, str) else list(dict.fromkeys(aovs))
+    names = as_names(aovs, "aovs")
     for name in names:
         if name != "color" and name not in _QUANTITIES:
-            raise ValueError(f"unknown AOV {name!r}; use color, {', '.join(_QUANTITIES)}")
+            raise ValueError(f"unknown AOV {name!r} in aovs; use color, {', '.join(_QUANTITIES)}")
     if not names:
         raise ValueError("aovs must name at least one array")
     return names
@@ -452,6 +473,8 @@ class _shown:
     def __init__(
         self, progress: Callable[[float], bool | None] | bool, count: int, unit: str = "picture"
     ) -> None:
+        if not callable(progress) and not isinstance(progress, (bool, type(None))):
+            raise TypeError(f"progress must be a function, True or False, not {progress!r}")
         self._function = progress if callable(progress) else None
         self._bar: Any = None
         if progress is True:

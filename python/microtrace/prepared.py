@@ -10,7 +10,17 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_float32, as_numbers, as_threads, readable
+from ._arrays import (
+    MOST,
+    as_float32,
+    as_instance,
+    as_integer,
+    as_numbers,
+    as_reals,
+    as_text,
+    as_threads,
+    readable,
+)
 from .errors import warn_caller
 from .hits import AllHits, ClosestPoints, HitField, Hits, output_arrays
 from .viewer import View, words_of
@@ -44,8 +54,16 @@ class PreparedScene:
         fast_build: bool = False,
     ) -> None:
         """See Scene.prepare()."""
+        from .scene import Scene
+
+        as_instance(scene, "scene", Scene)
+        if previous is not None:
+            as_instance(previous, "previous", PreparedScene)
         self._core: _core.Prepared = _core.Prepared(
-            scene, None if previous is None else previous._core, as_threads(threads), fast_build
+            scene,
+            None if previous is None else previous._core,
+            as_threads(threads),
+            bool(fast_build),
         )
         self._solids: dict[int | None, _core.Solid] = {}
 
@@ -125,12 +143,9 @@ class PreparedScene:
         flat, shape, low, high = _rays(ray, t_min, t_max)
         if shape != ():
             raise ValueError(f"explain() takes one ray of shape (6,), not {(*shape, 6)}")
-        for name, limit in (("max_hits", max_hits), ("max_misses", max_misses)):
-            if limit < 0:
-                raise ValueError(f"{name} must not be negative, is {limit}")
-        explanation: dict[str, Any] = json.loads(
-            self._core.explain(flat, low, high, max_hits, max_misses)
-        )
+        hits = as_integer(max_hits, "max_hits", 0, MOST)
+        misses = as_integer(max_misses, "max_misses", 0, MOST)
+        explanation: dict[str, Any] = json.loads(self._core.explain(flat, low, high, hits, misses))
         return explanation
 
     def view(
@@ -163,7 +178,14 @@ class PreparedScene:
             UnsupportedError: the module microtrace_http is not installed.
             ValueError: the port is not in [0, 65535].
         """
-        return View(self._core, name, words_of(options), port, allow_host, height)
+        return View(
+            self._core,
+            as_text(name, "name"),
+            words_of(options),
+            as_integer(port, "port", 0, 65535),
+            as_text(allow_host, "allow_host"),
+            as_integer(height, "height", 1, MOST),
+        )
 
     def occluded(
         self,
@@ -307,9 +329,10 @@ class PreparedScene:
         return result
 
     def _solid(self, object: int | None) -> _core.Solid:
-        if object not in self._solids:
-            self._solids[object] = _core.Solid(self._core, object)
-        return self._solids[object]
+        index = None if object is None else as_integer(object, "object", -MOST, MOST)
+        if index not in self._solids:
+            self._solids[index] = _core.Solid(self._core, index)
+        return self._solids[index]
 
 
 def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], tuple[int, ...]]:
@@ -329,9 +352,7 @@ def _rays(
     def end(values: npt.ArrayLike | None, what: str) -> Array | None:
         if values is None:
             return None
-        numbers = np.asarray(values)
-        if numbers.dtype.kind not in "fiu":
-            raise TypeError(f"{what} must contain real numbers, not {numbers.dtype}")
+        numbers = as_reals(values, what)
         try:
             each = np.broadcast_to(numbers, shape)
         except ValueError:

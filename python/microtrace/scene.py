@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+import operator
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from typing import Any, Literal
@@ -12,7 +13,16 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_indices, as_numbers, as_rows
+from ._arrays import (
+    as_array,
+    as_float,
+    as_indices,
+    as_numbers,
+    as_path,
+    as_reals,
+    as_rows,
+    as_text,
+)
 from ._brief import Brief
 from .cameras import Camera, Vector
 from .errors import warn
@@ -86,7 +96,7 @@ class Scene(Brief):
             colors=None if colors is None else linear_colors(colors),
         )
         if transform is not None:
-            _transform(mesh, np.asarray(transform))
+            _transform(mesh, as_reals(transform, "transform"))
         return self._add(mesh, material, name)
 
     def add_sphere(
@@ -188,8 +198,8 @@ def _rotated(columns: Any, vectors: npt.NDArray[Any]) -> npt.NDArray[np.float64]
 
 
 def _transform(mesh: Mesh, matrix: npt.NDArray[Any]) -> None:
-    if matrix.shape != (4, 4) or matrix.dtype.kind not in "fiu":
-        raise ValueError(f"transform must be a 4 x 4 matrix of real numbers, not {matrix.shape}")
+    if matrix.shape != (4, 4):
+        raise ValueError(f"transform must be a 4 x 4 matrix, not {matrix.shape}")
     m = matrix.astype(np.float64)
     if not np.array_equal(m[3], (0, 0, 0, 1)):
         raise ValueError("transform must be affine: its last row must be 0, 0, 0, 1")
@@ -214,7 +224,7 @@ def _cross(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 def linear_colors(colors: Any) -> npt.NDArray[Any]:
     """Returns (n, 4) linear colors from (n, 3) or (n, 4) linear numbers or 8-bit sRGB integers."""
-    array = np.asarray(colors)
+    array = as_array(colors, "colors")
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise ValueError(f"colors must have shape (n, 3) or (n, 4), not {array.shape}")
     if array.dtype == np.uint8:
@@ -246,10 +256,10 @@ def load(
     path: str | PathLike[str],
     *,
     detail: Literal["shape", "color", "shape_and_color", "all"] = "all",
-    variant: str = "",
+    variant: str | int = "",
     time: float | None = None,
-    animation: str = "",
-    allowed_folders: Sequence[str | PathLike[str]] = (),
+    animation: str | int = "",
+    allowed_folders: Iterable[str | PathLike[str]] | str | PathLike[str] = (),
 ) -> Scene:
     """Reads a scene: glTF 2.0 (.gltf, .glb) or microtrace JSON (.json).
 
@@ -261,7 +271,8 @@ def load(
         variant: name or index of a material variant of a glTF asset.
         time: animation time in seconds; None means the pose without animation.
         animation: name or index of an animation, or "all"; "" means the first.
-        allowed_folders: additional folders from which a glTF asset may load buffers and images.
+        allowed_folders: a folder, or several, from which a glTF asset may also load buffers and
+            images.
 
     Warns:
         SceneWarning: for each oddity, ignored feature and repaired violation.
@@ -289,12 +300,16 @@ class SceneFile:
         path: str | PathLike[str],
         *,
         detail: Literal["shape", "color", "shape_and_color", "all"] = "all",
-        variant: str = "",
-        animation: str = "",
-        allowed_folders: Sequence[str | PathLike[str]] = (),
+        variant: str | int = "",
+        animation: str | int = "",
+        allowed_folders: Iterable[str | PathLike[str]] | str | PathLike[str] = (),
     ) -> None:
         self._file = _core.SceneFile(
-            path, detail, variant, animation, [str(folder) for folder in allowed_folders]
+            as_path(path, "path"),
+            as_text(detail, "detail"),
+            _chosen(variant, "variant"),
+            _chosen(animation, "animation"),
+            [as_path(folder, "allowed_folders") for folder in _listed(allowed_folders)],
         )
 
     def at(self, time: float | None) -> Scene:
@@ -303,6 +318,27 @@ class SceneFile:
 
         Warns and raises like load().
         """
-        fields, diagnostics = self._file.at(time)
+        seconds = None if time is None else as_float(time, "time", "a number or None")
+        fields, diagnostics = self._file.at(seconds)
         warn(diagnostics)
         return Scene(**fields)
+
+
+def _chosen(value: Any, what: str) -> str:
+    """Returns a name or an index as text."""
+    if isinstance(value, str):
+        return value
+    try:
+        return str(operator.index(value))
+    except TypeError:
+        raise TypeError(f"{what} must be a name or an index, not {value!r}") from None
+
+
+def _listed(folders: Any) -> list[Any]:
+    """Returns a list of folders. A single path is not an iterable of letters."""
+    if isinstance(folders, (str, bytes, PathLike)):
+        return [folders]
+    try:
+        return list(folders)
+    except TypeError:
+        raise TypeError(f"allowed_folders must be paths, not {folders!r}") from None

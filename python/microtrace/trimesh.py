@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import MOST, as_integer, as_reals
 from .prepared import PreparedScene
 from .scene import Scene
 
@@ -55,9 +56,10 @@ class RayMeshIntersector:
             index_tri (h,) int64, index_ray (h,) int64 and, if requested, locations (h, 3) float64.
         """
         rays = self._rays(ray_origins, ray_directions)
+        most = None if max_hits is None else as_integer(max_hits, "max_hits", 0, MOST)
         t, tri, ray = self._all(rays) if multiple_hits else self._nearest(rays)
-        if multiple_hits and max_hits is not None and len(ray):
-            few: Array = np.arange(len(ray)) - np.searchsorted(ray, ray) < max_hits
+        if multiple_hits and most is not None and len(ray):
+            few: Array = np.arange(len(ray)) - np.searchsorted(ray, ray) < most
             t, tri, ray = t[few], tri[few], ray[few]
         index_tri, index_ray = tri.astype(np.int64), ray.astype(np.int64)
         if not return_locations:
@@ -97,7 +99,7 @@ class RayMeshIntersector:
     def contains_points(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Returns True for points inside the mesh or on it, (n,) bool. Results for closed meshes
         are always correct."""
-        array = np.asarray(points, np.float64)
+        array = as_reals(points, "points").astype(np.float64)
         if array.ndim != 2 or array.shape[1] != 3:
             raise ValueError("points must be (n,3)")
         prepared = self._prepared()
@@ -189,7 +191,8 @@ class RayMeshIntersector:
         """Returns rays relative to the mesh's center. Scales directions so that their greatest
         component is 1."""
         self._prepared()
-        o, d = np.asarray(origins, np.float64), np.asarray(directions, np.float64)
+        o = as_reals(origins, "ray_origins").astype(np.float64)
+        d = as_reals(directions, "ray_directions").astype(np.float64)
         if o.shape != d.shape or o.ndim != 2 or o.shape[1] != 3:
             raise ValueError(
                 f"origins and directions must both have shape (m, 3), not {o.shape} and {d.shape}"

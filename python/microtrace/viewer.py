@@ -84,4 +84,9 @@ def _close(core: _core.Viewer, process: int) -> None:
 
 def words_of(options: str | Sequence[str]) -> list[str]:
     """Returns the words of options of the command line."""
-    return shlex.split(options) if isinstance(options, str) else [str(word) for word in options]
+    if isinstance(options, str):
+        return shlex.split(options)
+    try:
+        return [str(word) for word in options]
+    except TypeError:
+        raise TypeError(f"options must be a str or a list, not {options!r}") from None

@@ -232,10 +232,8 @@ struct PictureOptions {
 
 /// Returns what is rendered and how, but not which part of the picture.
 PictureOptions options_of(const Prepared& self, const nb::dict& arguments) {
-  nb::object name = arguments["integrator"];
-  if (name.is_none()) name = nb::cast(self.is_flat ? "flat" : "path");
   const IntegratorOptions integrator_options =
-      integrator_of(nb::cast<std::string>(name), arguments);
+      integrator_of(nb::cast<std::string>(arguments["integrator"]), arguments);
   const nb::object samples = arguments["spp"], background = arguments["background"];
   PictureOptions result{.integrator = make_integrator(integrator_options)};
   result.options = {
@@ -322,8 +320,9 @@ Film film_of(const Pixels<const float>& color, double exposure, const std::strin
   const auto map = tone_map_named(tone_map);
   if (!map) {
     std::string names;
-    for (const ToneMap each : kToneMaps) names.append(" ").append(name_of(each));
-    throw nb::value_error(("unknown tone map " + tone_map + "; use one of" + names).c_str());
+    for (const ToneMap each : kToneMaps)
+      names.append(names.empty() ? "" : ", ").append(name_of(each));
+    throw nb::value_error(("tone_map must be one of " + names).c_str());
   }
   const std::size_t count = color.shape(2);
   Film film({.width = static_cast<std::uint32_t>(color.shape(1)),
@@ -409,8 +408,10 @@ void bind_pictures(nb::module_& module) {
     names.append(nb::make_tuple(quantity.name, quantity.channel_names().size(), quantity.is_id()));
   }
   module.attr("quantities") = nb::tuple(names);
-  module.def("render", &render_into);
-  module.def("automatic_exposure", &exposure_for);
+  module.def("render", &render_into, nb::arg("scene"), nb::arg("camera").none(), nb::arg("outputs"),
+             nb::arg("arguments"));
+  module.def("automatic_exposure", &exposure_for, nb::arg("scene"), nb::arg("camera").none(),
+             nb::arg("arguments"));
   module.def("save", &save);
   module.def("denoiser_name", &denoiser_name);
   module.def("denoise", &denoise);

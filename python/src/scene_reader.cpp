@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "fields.hpp"
 #include "images.hpp"
+#include "values.hpp"
 
 #include <memory>
 #include <nanobind/stl/array.h>
@@ -71,11 +72,13 @@ class Reader {
     read_field("epsilon", scene_.epsilon);
     if (!source_.attr("background").is_none()) read_field("background", scene_.background);
     read_field("size", scene_.size);
-    for (const nb::handle material : source_.attr("materials"))
+    for (const nb::handle material : list_of(source_.attr("materials"), "materials", "a list"))
       materials_.add(material, [&] { read_material(material); });
-    for (const nb::handle object : source_.attr("objects")) add_object(object);
-    for (const nb::handle light : source_.attr("lights")) add_light(light);
-    for (const nb::handle camera : source_.attr("cameras")) {
+    for (const nb::handle object : list_of(source_.attr("objects"), "objects", "a list"))
+      add_object(object);
+    for (const nb::handle light : list_of(source_.attr("lights"), "lights", "a list"))
+      add_light(light);
+    for (const nb::handle camera : list_of(source_.attr("cameras"), "cameras", "a list")) {
       const Camera made = camera_of(camera);
       scene_.cameras.push_back({.name = text(camera, "name"), .camera = made});
     }
@@ -84,14 +87,6 @@ class Reader {
   }
 
  private:
-  template <class T>
-  static T cast(const nb::handle& value, const char* what) {
-    T result{};
-    if (!nb::try_cast(value, result))
-      throw nb::type_error(
-          (std::string(what) + " has a wrong type: " + nb::repr(value).c_str()).c_str());
-    return result;
-  }
   static std::string text(const nb::handle& object, const char* name) {
     return cast<std::string>(object.attr(name), name);
   }
@@ -105,16 +100,13 @@ class Reader {
   }
   template <glm::length_t n, class Number>
   void read(const nb::handle& value, glm::vec<n, Number>& to) {
-    std::size_t size = 0;
-    for (const nb::handle item : value) {
-      if (size < static_cast<std::size_t>(n))
-        to[static_cast<glm::length_t>(size)] = static_cast<Number>(cast<double>(item, field_));
-      ++size;
-    }
-    if (size != static_cast<std::size_t>(n))
+    const nb::list items = list_of(value, field_, std::to_string(n) + " numbers");
+    if (items.size() != static_cast<std::size_t>(n))
       throw nb::value_error((std::string(field_) + " must have " + std::to_string(n) +
-                             " numbers, not " + std::to_string(size))
+                             " numbers, not " + std::to_string(items.size()))
                                 .c_str());
+    for (glm::length_t k = 0; k < n; ++k)
+      to[k] = static_cast<Number>(cast<double>(items[static_cast<std::size_t>(k)], field_));
   }
   void read(const nb::handle& value, AlphaMode& to) {
     to = named<AlphaMode>(cast<std::string>(value, field_), field_);
@@ -139,7 +131,9 @@ class Reader {
   }
   template <class T>
   void read(const nb::handle& value, std::optional<T>& to) {
-    if (!value.is_none()) read_fields(value, to.emplace());
+    if (value.is_none()) return;
+    if (!is<T>(value)) refuse(field_, std::string("a microtrace.") + Class<T>::kName, value);
+    read_fields(value, to.emplace());
   }
 
   template <class T>
@@ -250,7 +244,7 @@ class Reader {
     read_rows(mesh, "tangents", result.tangents);
     read_rows(mesh, "colors", result.colors);
     read_rows(mesh, "segments", result.segments);
-    for (const nb::handle set : mesh.attr("uv"))
+    for (const nb::handle set : list_of(mesh.attr("uv"), "uv", "a list"))
       result.uv_sets.push_back(set.is_none() ? Array<Vec2>() : rows_of<Vec2>(set, "uv"));
     return result;
   }
@@ -271,7 +265,8 @@ class Reader {
     if (is<Triangle>(shape)) return fields_of<Triangle>(shape);
     if (!is(shape, "shapes", "Quadric")) wrong("a shape", shape);
     const auto c = cast<std::array<double, 10>>(
-        nb::list(nb::borrow<nb::object>(shape.attr("coefficients"))), "coefficients");
+        list_of(shape.attr("coefficients"), "coefficients", kWords<std::array<double, 10>>),
+        "coefficients");
     const auto f = [&](std::size_t i) { return static_cast<float>(c[i]); };
     return Quadric{f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9)};
   }

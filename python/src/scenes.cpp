@@ -63,8 +63,9 @@ nb::tuple at(SharedFile& shared, std::optional<double> time) {
 
 void prepare(Prepared* self, const nb::object& source, const nb::object& previous, unsigned threads,
              bool fast_build) {
-  const auto integrator = nb::cast<std::string>(source.attr("integrator"));
-  if (integrator != "path" && integrator != "flat")
+  std::string integrator;
+  if (!nb::try_cast(source.attr("integrator"), integrator) ||
+      (integrator != "path" && integrator != "flat"))
     throw nb::value_error("integrator must be \"path\" or \"flat\"");
   const bool has_background = !source.attr("background").is_none();
   Scene scene = scene_from_python(source);

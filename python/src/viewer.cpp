@@ -26,9 +26,8 @@ std::shared_ptr<const cli::ShownScene> shown(const Prepared& prepared) {
 }
 
 cli::Arguments arguments_of(const Prepared& prepared, std::string name,
-                            std::vector<std::string> words, unsigned port,
+                            std::vector<std::string> words, std::uint16_t port,
                             const std::string& allowed_host) {
-  if (port > 65535) throw nb::value_error("port must be in [0, 65535]");
   if (!prepared.is_flat && prepared.has_background) {
     for (const char* word : {"path", "--integrator"}) words.insert(words.begin(), word);
   }
@@ -36,7 +35,7 @@ cli::Arguments arguments_of(const Prepared& prepared, std::string name,
   if (!allowed_host.empty()) words.push_back("--allow-host=" + allowed_host);
   cli::Arguments arguments = cli::parse_words(cli::Command::view, std::move(words));
   arguments.scene = std::move(name);
-  arguments.view.port = static_cast<std::uint16_t>(port);
+  arguments.view.port = port;
   return arguments;
 }
 
@@ -81,7 +80,8 @@ class Viewer {
 };
 
 void open_viewer(Viewer* self, const Prepared& prepared, std::string name,
-                 std::vector<std::string> words, unsigned port, const std::string& allowed_host) {
+                 std::vector<std::string> words, std::uint16_t port,
+                 const std::string& allowed_host) {
   const cli::Arguments arguments =
       arguments_of(prepared, std::move(name), std::move(words), port, allowed_host);
   const nb::gil_scoped_release release;

@@ -297,7 +297,7 @@ def test_explanations() -> None:
     for rays in (np.zeros((1, 6)), np.zeros((2, 6)), np.zeros(5)):
         with pytest.raises(ValueError):
             prepared.explain(rays)
-    with pytest.raises(ValueError, match="max_hits must not be negative"):
+    with pytest.raises(ValueError, match="max_hits must be at least 0, not -1"):
         prepared.explain([0, 0, 5, 0, 0, -2], max_hits=-1)
     assert not prepared.explain([0, 0, 5, 0, 0, 0])["ray"]["valid"]
     assert not prepared.explain([np.nan, 0, 5, 0, 0, 1])["ray"]["valid"]

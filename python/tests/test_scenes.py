@@ -518,7 +518,7 @@ def _resident() -> int:
     ("fields", "message"),
     [
         ({"background": (1, 2)}, "background must have 3 numbers"),
-        ({"epsilon": "x"}, "epsilon has a wrong type"),
+        ({"epsilon": "x"}, "epsilon must be a number, not 'x'"),
         ({"background": (np.nan, 0, 0)}, "/background"),
         ({"origin": (0, np.inf, 0)}, "/origin"),
         ({"epsilon": -1}, "/epsilon"),
