@@ -28,6 +28,7 @@ from ._arrays import (
     as_vector,
 )
 from .cameras import Camera, PerspectiveCamera, Vector, as_degrees
+from .errors import Diagnostic, SceneWarning, warn_caller
 from .lights import Environment
 from .prepared import PreparedScene
 from .scene import Scene
@@ -309,6 +310,9 @@ def render(
         CanceledError: progress returned False.
         LimitError: there is not enough memory.
         UnsupportedError: Open Image Denoise is not installed.
+
+    Warns:
+        SceneWarning: the ground has no height, and the scene no lowest point.
     """
     prepared = _prepared(scene)
     size = prepared._core.size if size is None else as_size(size)
@@ -355,6 +359,8 @@ def render(
         "shutter": None if shutter is None else _shutter_arguments(shutter),
         "threads": as_threads(threads),
     }
+    if is_ground_missing(prepared, ground):
+        warn_caller(missing_ground())
     stops = _exposure(exposure, prepared, method, wanted)
     if stops is None:
         stops = _core.automatic_exposure(prepared._core, cameras[0], arguments) if cameras else 0.0
@@ -387,6 +393,21 @@ def _ground_arguments(ground: bool | float, integrator: str) -> dict[str, float 
         if ground is True
         else as_real(ground, "ground", -3e38, 3e38, "True, False or a height")
     }
+
+
+def is_ground_missing(prepared: PreparedScene, ground: bool | float) -> bool:
+    """Returns True if a ground has no height and the scene no lowest point."""
+    wants_lowest = isinstance(ground, (bool, np.bool_)) and bool(ground)
+    return wants_lowest and not prepared._core.has_bounded_object
+
+
+def missing_ground() -> SceneWarning:
+    """Makes the warning about a ground that can't be placed."""
+    message = (
+        "no object is bounded, so the scene has no lowest point for the ground; "
+        "give a height, as in ground=0"
+    )
+    return SceneWarning(Diagnostic("", 0, 0, "", message, message))
 
 
 def _exposure(

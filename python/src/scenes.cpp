@@ -3,6 +3,7 @@
 #include "common.hpp"
 #include "prepared.hpp"
 #include "scene/math/srgb.hpp"
+#include "scene/support.hpp"
 #include "scene_reader.hpp"
 #include "scene_writer.hpp"
 
@@ -88,6 +89,11 @@ void bind_scenes(nb::module_& module) {
       .def("__init__", &prepare, nb::arg("scene"), nb::arg("previous").none(), nb::arg("threads"),
            nb::arg("fast_build"))
       .def_prop_ro("is_flat", [](const Prepared& self) { return self.is_flat; })
+      .def_prop_ro("has_bounded_object",
+                   [](const Prepared& self) {
+                     const nb::gil_scoped_release release;
+                     return has_bounded_object(self.scene.scene());
+                   })
       .def_prop_ro("has_lights",
                    [](const Prepared& self) { return !self.scene.scene().lights.empty(); })
       .def_prop_ro("size",

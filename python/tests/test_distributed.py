@@ -55,6 +55,15 @@ def test_ranges_of_tiles_cover_pictures(size):
             assert (seen == 1).all()
 
 
+def test_the_client_warns_about_a_missing_ground(client):
+    scene = mt.Scene()
+    scene.add_plane((0, 0, -5), (0, 0, 1))
+    camera = mt.look_at((0, 0, 0), (0, 0, -1))
+    with pytest.warns(mt.SceneWarning, match="no lowest point") as caught:
+        md.render(client, scene, camera, (24, 16), spp=1, ground=True)
+    assert [w.filename for w in caught] == [__file__]
+
+
 @pytest.mark.parametrize(
     "scene, arguments",
     [

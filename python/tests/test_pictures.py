@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 
 import microtrace as mt
 import numpy as np
@@ -153,6 +154,23 @@ def test_ground(program, tmp_path):
             mt.render(scene, ground=value)
     with pytest.raises(ValueError, match="integrator"):
         mt.render(scene, ground=True, integrator="flat")
+
+
+def test_a_ground_without_a_lowest_point():
+    scene = mt.Scene(lights=[mt.PointLight(position=(0, 1, 0))])
+    scene.add_plane((0, 0, -5), (0, 0, 1))
+    arguments = {"camera": mt.look_at((0, 1, 0), (0, 0, -4)), "size": (8, 8), "spp": 1}
+    with pytest.warns(
+        mt.SceneWarning, match="no lowest point for the ground; .* ground=0"
+    ) as caught:
+        picture = mt.render(scene, ground=True, **arguments)
+    assert [(w.filename, w.message.diagnostic.file) for w in caught] == [(__file__, "")]
+    assert np.array_equal(picture.color, mt.render(scene, **arguments).color)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        mt.render(scene, ground=0, **arguments)
+        scene.add_sphere((0, 0, -3), 0.5)
+        mt.render(scene, ground=True, **arguments)
 
 
 def test_stacks_threads_and_detail():

@@ -1,5 +1,8 @@
 #include "scene/support.hpp"
 
+#include <microtrace/scene.hpp>
+
+#include <algorithm>
 #include <limits>
 
 #include <glm/common.hpp>
@@ -47,6 +50,13 @@ std::optional<Extent> extent_of(const Shape& shape, ChunkedMeshes& chunks) {
       });
   if (!(extent.low.x <= extent.high.x)) return std::nullopt;
   return extent;
+}
+
+bool has_bounded_object(const Scene& scene) {
+  ChunkedMeshes chunks;
+  return std::ranges::any_of(scene.objects, [&](const Object& object) {
+    return extent_of(object.shape, chunks).has_value();
+  });
 }
 
 }  // namespace microtrace

@@ -15,6 +15,8 @@
 
 namespace microtrace {
 
+struct Scene;
+
 [[nodiscard]] inline bool is_finite(const Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
@@ -97,5 +99,8 @@ struct Extent {
   DVec3 low, high;
 };
 [[nodiscard]] std::optional<Extent> extent_of(const Shape& shape, ChunkedMeshes& chunks);
+
+/// Returns true if any object has an extent.
+[[nodiscard]] bool has_bounded_object(const Scene& scene);
 
 }  // namespace microtrace

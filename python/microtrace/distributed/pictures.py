@@ -11,6 +11,7 @@ from distributed import Client
 
 from .._arrays import as_size
 from ..cameras import Camera, Vector
+from ..errors import warn_caller
 from ..lights import Environment
 from ..pictures import (
     _QUANTITIES,
@@ -22,6 +23,8 @@ from ..pictures import (
     _ground_arguments,
     _shown,
     _with_features,
+    is_ground_missing,
+    missing_ground,
 )
 from ..pictures import render as render_here
 from ..prepared import PreparedScene
@@ -110,7 +113,8 @@ def render_tiles(job: Job, first: int, last: int) -> Outcome:
             )
             displays.append((picture._exposure, picture._tone_map))
             arrays.append(dict(picture))
-        return watch.seconds(), (arrays, displays[0])
+        is_missing = is_ground_missing(scene, pictures.options["ground"])
+        return watch.seconds(), (arrays, displays[0], is_missing)
 
     return attempt(job, work)
 
@@ -170,6 +174,9 @@ def render(
         CanceledError: progress returned False.
         distributed.KilledWorker: workers died repeatedly while they rendered the same part.
         OSError, MemoryError: all retries failed.
+
+    Warns:
+        SceneWarning: see microtrace.render().
     """
     require_synchronous(client)
     wanted = _checked(aovs)
@@ -209,9 +216,11 @@ def render(
 
     def receive(first: int, last: int, value: Any) -> None:
         nonlocal display
-        rendered, shown = value
+        rendered, shown, lacks_ground = value
         if first == 0:
             display = shown
+            if lacks_ground:
+                warn_caller(missing_ground())
         parts = parts_of(first, last, width, height)
         for (index, (x0, y0, x1, y1)), part in zip(parts, rendered):
             for name, array in part.items():

@@ -108,12 +108,8 @@ std::string lights_text(const Scene& scene) {
 }
 
 std::optional<Diagnostic> ground_warning(const Arguments& arguments, const Scene& scene) {
-  if (!arguments.path.ground || arguments.path.ground->height) return std::nullopt;
-  ChunkedMeshes chunks;
-  const auto is_bounded = [&](const Object& object) {
-    return extent_of(object.shape, chunks).has_value();
-  };
-  if (std::ranges::any_of(scene.objects, is_bounded)) return std::nullopt;
+  if (!arguments.path.ground || arguments.path.ground->height || has_bounded_object(scene))
+    return std::nullopt;
   return warning_about(
       arguments,
       "no object is bounded, so the scene has no lowest point for --ground; give a "
