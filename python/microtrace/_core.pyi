@@ -93,11 +93,13 @@ class Prepared:
         self,
         hits: AllHits,
         rays: Array,
+        t_min: Array | None,
+        t_max: Array | None,
         outputs: dict[str, Array],
         offsets: Array,
         owners: Array,
+        ties: Array,
         threads: int,
-        /,
     ) -> None: ...
     def count_crossings(
         self, rays: Array, t_min: Array | None, t_max: Array | None, counts: Array, threads: int

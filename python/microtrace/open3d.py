@@ -118,7 +118,8 @@ class RaycastingScene:
         )
 
     def count_intersections(self, rays: Any, nthreads: int = 0) -> Tensor:
-        """Returns the number of hits of each ray, int32. Triangles at the same t count once."""
+        """Returns the number of hits of each ray, int32. Triangles at exactly the same t count
+        once."""
         numbers = _numbers(rays)
         found, is_new = self._all(numbers, nthreads, ("t",))
         counts = np.bincount(found.ray[is_new], minlength=numbers[..., 0].size)
@@ -126,7 +127,8 @@ class RaycastingScene:
 
     def list_intersections(self, rays: Any, nthreads: int = 0) -> dict[str, Tensor]:
         """Returns all hits, ray by ray, nearest first: ray_splits (number of rays + 1), ray_ids,
-        t_hit, geometry_ids, primitive_ids and primitive_uvs. Triangles at the same t count once."""
+        t_hit, geometry_ids, primitive_ids and primitive_uvs. Triangles at exactly the same t count
+        once."""
         numbers = _numbers(rays)
         fields = ("t", "object", "primitive", "barycentrics")
         found, is_new = self._all(numbers, nthreads, fields)
@@ -196,11 +198,10 @@ class RaycastingScene:
 
     def _all(self, rays: Array, nthreads: int, fields: Any) -> tuple[Any, Array]:
         """Returns all hits, and for each hit whether it is the first of its ray at its t."""
-        found = self._prepared().intersect_all(rays, fields=fields, threads=self._count(nthreads))
-        t = found.t
-        is_new = np.ones(len(t), bool)
-        is_new[1:] = (found.ray[1:] != found.ray[:-1]) | (t[1:] != t[:-1])
-        return found, is_new
+        found, ties = self._prepared()._intersect_all(
+            rays, None, None, fields, self._count(nthreads), finds_ties=True
+        )
+        return found, ~ties
 
     def _normals(self, objects: Array, faces: Array) -> npt.NDArray[np.float32]:
         result = np.zeros((*objects.shape, 3), np.float32)

@@ -217,13 +217,30 @@ class PreparedScene:
         and a ray through a sphere hits the sphere once. Takes the arguments of intersect(). The
         leading shape is flattened.
         """
+        return self._intersect_all(rays, t_min, t_max, fields, threads)[0]
+
+    def _intersect_all(
+        self,
+        rays: npt.ArrayLike,
+        t_min: npt.ArrayLike | None,
+        t_max: npt.ArrayLike | None,
+        fields: Iterable[HitField],
+        threads: int,
+        *,
+        finds_ties: bool = False,
+    ) -> tuple[AllHits, npt.NDArray[np.bool_]]:
+        """Returns the hits of intersect_all() and, with finds_ties, True for each hit whose exact t
+        equals that of the ray's previous hit."""
         flat, _, low, high = _rays(rays, t_min, t_max)
         found = self._core.intersect_all(flat, low, high, as_threads(threads))
         outputs = output_arrays(fields, len(found))
         offsets = np.empty(len(flat) + 1, np.int64)
         owners = np.empty(len(found), np.int64)
-        self._core.fill_all(found, flat, outputs, offsets, owners, as_threads(threads))
-        return AllHits(**outputs, offsets=offsets, ray=owners)
+        ties = np.empty(len(found) if finds_ties else 0, np.bool_)
+        self._core.fill_all(
+            found, flat, low, high, outputs, offsets, owners, ties, as_threads(threads)
+        )
+        return AllHits(**outputs, offsets=offsets, ray=owners), ties
 
     def count_crossings(
         self,

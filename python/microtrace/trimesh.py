@@ -26,7 +26,8 @@ class RayMeshIntersector:
     never slip between triangles. As in trimesh, hits at a ray's origin count, and triangles in
     whose plane the ray lies are not hit; rays still hit their neighbors at the common edges. Of
     several triangles that a ray enters at a common vertex or edge, only one counts, and so does
-    one of those that it leaves there. If the mesh has changed, the next query prepares it again.
+    one of those that it leaves there. Hits at different points count, however close they are. If
+    the mesh has changed, the next query prepares it again.
     """
 
     def __init__(self, mesh: Any, **_: Any) -> None:
@@ -135,15 +136,19 @@ class RayMeshIntersector:
 
     def _all(self, rays: Array) -> tuple[Array, Array, Array]:
         """Returns t, triangles and rays of all hits."""
-        found = self._prepared().intersect_all(rays, t_min=0)
+        found, ties = self._prepared()._intersect_all(
+            rays, 0, None, ("t", "primitive"), 0, finds_ties=True
+        )
         facing = self._facing(rays[found.ray, 3:], found.primitive)
         counts = facing != 0
         t, tri, ray = found.t[counts], found.primitive[counts], found.ray[counts]
         facing = facing[counts]
         is_new = np.ones(len(t), bool)
+        # The hits of a ray at one point have the same place.
+        place = np.cumsum(~ties)[counts]
         begins = np.ones(len(t), bool)
-        begins[1:] = (ray[1:] != ray[:-1]) | (t[1:] != t[:-1])
-        # The number of hits of the same ray, at the same t, before each hit.
+        begins[1:] = place[1:] != place[:-1]
+        # The number of hits of the same ray, at the same point, before each hit.
         before = np.arange(len(t)) - np.nonzero(begins)[0][np.cumsum(begins) - 1]
         for lag in range(1, int(before.max(initial=0)) + 1):
             at = np.nonzero(before >= lag)[0]
@@ -151,8 +156,7 @@ class RayMeshIntersector:
             earlier = self._vertices[np.asarray(self.mesh.faces)[tri[at - lag]]]
             # Compares positions, because vertices with different indices coincide at seams.
             touch = (corners[:, :, None] == earlier[:, None]).all(axis=3).any(axis=(1, 2))
-            # A ray that cuts off a sharp edge enters and leaves at different points, whose t may
-            # round to the same number.
+            # A ray through a sharp edge may enter and leave at the same point.
             is_new[at] &= ~(touch & (facing[at] == facing[at - lag]))
         return t[is_new], tri[is_new], ray[is_new]
 

@@ -1,5 +1,6 @@
 /// Binds ray queries in bulk.
 
+#include "accel/resolve/exact_hits.hpp"
 #include "ray_arrays.hpp"
 
 #include <algorithm>
@@ -89,10 +90,24 @@ std::unique_ptr<AllHits> intersect_all(const Prepared& self, const AnyArray& arr
   return result;
 }
 
+/// Sets ties[k] for the hits of one ray to true if hit k has exactly the same t as the hit before.
+void find_ties(const Primitives& primitives, const Ray& ray,
+               std::span<const std::optional<Hit>> hits, bool* ties) {
+  const ExactHits exactly(primitives, ray);
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    ties[k] =
+        k > 0 && hits[k]->t == hits[k - 1]->t && exactly.order(hits[k - 1]->id, hits[k]->id) == 0;
+  }
+}
+
+/// Takes the arguments and the result of intersect_all(). Fills `outputs`, the offsets, the ray of
+/// each hit and, if `ties` is not empty, what find_ties() finds.
 void fill_all(const Prepared& self, const AllHits& all, const AnyArray& array,
-              const nb::dict& outputs, const nb::ndarray<std::int64_t, nb::c_contig>& offsets,
-              const nb::ndarray<std::int64_t, nb::c_contig>& owners, unsigned threads) {
-  const Rays source(array, nb::none(), nb::none(), self.scene.scene().origin);
+              const nb::object& t_min, const nb::object& t_max, const nb::dict& outputs,
+              const nb::ndarray<std::int64_t, nb::c_contig>& offsets,
+              const nb::ndarray<std::int64_t, nb::c_contig>& owners,
+              const nb::ndarray<bool, nb::c_contig>& ties, unsigned threads) {
+  const Rays source(array, t_min, t_max, self.scene.scene().origin);
   const Outputs to(outputs);
   std::copy(all.offsets.begin(), all.offsets.end(), offsets.data());
   std::int64_t* owner = owners.data();
@@ -109,6 +124,11 @@ void fill_all(const Prepared& self, const AllHits& all, const AnyArray& array,
         rays_of_hits.push_back(rays[i - first]);
         owner[k] = static_cast<std::int64_t>(i);
       }
+      if (ties.size() == 0) continue;
+      const std::size_t count = all.offsets[i + 1] - all.offsets[i];
+      find_ties(self.scene.bvh().primitives(), rays[i - first],
+                std::span(hits).subspan(all.offsets[i] - begin, count),
+                ties.data() + all.offsets[i]);
     }
     to.fill(self.scene, begin, rays_of_hits, hits);
   });
@@ -141,7 +161,9 @@ void bind_rays(nb::module_& module) {
   });
   type.def("intersect_all", &intersect_all, nb::arg("rays"), nb::arg("t_min").none(),
            nb::arg("t_max").none(), nb::arg("threads"));
-  type.def("fill_all", &fill_all);
+  type.def("fill_all", &fill_all, nb::arg("hits"), nb::arg("rays"), nb::arg("t_min").none(),
+           nb::arg("t_max").none(), nb::arg("outputs"), nb::arg("offsets"), nb::arg("owners"),
+           nb::arg("ties"), nb::arg("threads"));
   type.def("count_crossings", &count_crossings, nb::arg("rays"), nb::arg("t_min").none(),
            nb::arg("t_max").none(), nb::arg("counts"), nb::arg("threads"));
 }

@@ -18,6 +18,21 @@ BOX = (
 )
 
 
+def test_close_surfaces_count_twice():
+    """Two squares whose distances from the origin round to the same t."""
+    square = np.float32([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    scene = RaycastingScene()
+    for z in (0, 2.0**-30):
+        scene.add_triangles(square + np.float32([0, 0, z]), [[0, 1, 2], [0, 2, 3]])
+    # The ray at x = 0.5 passes through both diagonals.
+    rays = np.float32([[x, 0.5, -3, 0, 0, 1] for x in (0.25, 0.5)])
+    assert scene.count_intersections(rays).tolist() == [2, 2]
+    answer = scene.list_intersections(rays)
+    assert answer["t_hit"].tolist() == [3] * 4
+    assert answer["geometry_ids"].tolist() == [0, 1, 0, 1]
+    assert answer["ray_splits"].tolist() == [0, 2, 4]
+
+
 @pytest.fixture
 def box():
     scene = RaycastingScene()

@@ -114,6 +114,20 @@ def test_close_surfaces_count_twice():
         assert len(tri) == len(locations) == 2
 
 
+def test_folds_at_a_vertex_count_three_times():
+    """Three triangles at a vertex, of which the first and the last face the same side. The ray hits
+    them at 3, 3 + 2^-31 and 3 + 2^-30, which all round to 3."""
+    fold = [[(0, 0, 0), (1, -1, k * 2.0**-30), (1, 1, k * 2.0**-30)] for k in range(3)]
+    faces = np.array([[0, 1, 2], [3, 5, 4], [6, 7, 8]])
+    mesh = trimesh.Trimesh(np.concatenate(fold), faces, process=False)
+    engine = RayMeshIntersector(mesh)
+    tri, ray = engine.intersects_id([[0.5, 0.1, -3]] * 2, [[0, 0, 1]] * 2)
+    assert tri.tolist() == [0, 1, 2] * 2 and ray.tolist() == [0] * 3 + [1] * 3
+    assert len(engine.intersects_location([[0.5, 0.1, -3]], [[0, 0, 1]])[0]) == 3
+    # At the vertex itself, one hit counts for each side.
+    assert engine.intersects_id([[0, 0, -3]], [[0, 0, 1]])[0].tolist() == [0, 1]
+
+
 @pytest.mark.parametrize("scale", [1e-4, 0.1, 1, 10, 1e4, 1e8])
 def test_hits_at_the_origin_count(scale):
     mesh = trimesh.creation.box().subdivide().subdivide()
