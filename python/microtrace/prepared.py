@@ -99,8 +99,8 @@ class PreparedScene:
 
         Args:
             rays: (..., 6) real numbers: origin and direction.
-            t_min: least t of hits, broadcast to the leading shape. Default: the least float32 above
-                0.
+            t_min: least t of hits, at least 0, broadcast to the leading shape. Default: the least
+                float32 above 0.
             t_max: greatest t of hits, broadcast to the leading shape. Default: infinity.
             fields: the arrays to compute. Computing fewer arrays is faster.
             threads: number of threads; 0 means all processors.
@@ -109,7 +109,7 @@ class PreparedScene:
             Arrays of the leading shape; see Hits.
 
         Raises:
-            ValueError: an array has a wrong shape, or a field is unknown.
+            ValueError: an array has a wrong shape, a t_min is negative, or a field is unknown.
             TypeError: an array contains anything but real numbers.
         """
         flat, shape, low, high = _rays(rays, t_min, t_max)
@@ -376,4 +376,7 @@ def _rays(
             raise ValueError(f"{what} must broadcast to {shape}, not {numbers.shape}") from None
         return as_float32(each).reshape(-1)
 
-    return flat, shape, end(t_min, "t_min"), end(t_max, "t_max")
+    low, high = end(t_min, "t_min"), end(t_max, "t_max")
+    if low is not None and (low < 0).any():
+        raise ValueError(f"t_min must not be negative, is {low.min()}")
+    return flat, shape, low, high

@@ -271,6 +271,13 @@ def test_results_of_progress_functions():
             mt.render(scene, size=(8, 8), aovs=["depth"], progress=lambda share, r=result: r)
 
 
+def test_pictures_are_compared_by_identity():
+    scene = mt.Scene()
+    scene.add_sphere()
+    one, other = (mt.render(scene, size=(4, 4), aovs=["depth"]) for _ in range(2))
+    assert one == one and one != other and one in [other, one] and {one: 1}[one] == 1
+
+
 def test_ranges_of_arguments():
     scene = mt.Scene()
     scene.add_sphere()

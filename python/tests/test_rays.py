@@ -207,6 +207,10 @@ def test_wrong_rays(ball, rays, error, text):
 
 
 def test_wrong_arguments(ball):
+    for t_min in (-1, -np.inf, [0, -0.5]):
+        for query in (ball.intersect, ball.occluded, ball.intersect_all):
+            with pytest.raises(ValueError, match="t_min must not be negative, is -"):
+                query(np.ones((2, 6)), t_min=t_min)
     with pytest.raises(ValueError, match="unknown field 'tee'"):
         ball.intersect(np.zeros((1, 6)), fields=["tee"])
     with pytest.raises(ValueError):
