@@ -147,8 +147,13 @@ def as_crop(value: Any, size: tuple[int, int]) -> tuple[int, int, int, int]:
     """Returns x0, y0, x1, y1 of a part of a picture of this size, which must not be empty."""
     if as_array(value, "crop").shape != (4,):
         raise ValueError(f"crop must be (x0, y0, x1, y1), not {value!r}")
-    x1, y1 = (as_integer(v, "crop", 1, n) for v, n in zip(value[2:], size))
-    x0, y0 = (as_integer(v, "crop", 0, n - 1) for v, n in zip(value[:2], (x1, y1)))
+    x0, y0, x1, y1 = (as_integer(v, "crop", -MOST, MOST) for v in value)
+    width, height = size
+    if not (0 <= x0 < x1 <= width and 0 <= y0 < y1 <= height):
+        raise ValueError(
+            f"crop must be (x0, y0, x1, y1) with 0 <= x0 < x1 <= {width} and "
+            f"0 <= y0 < y1 <= {height}, not {value!r}"
+        )
     return x0, y0, x1, y1
 
 

@@ -331,6 +331,9 @@ def render(
     else:
         is_stack = isinstance(camera, Sequence)
         cameras = list(camera) if isinstance(camera, Sequence) else [camera]
+    for name, is_set in (("guiding", bool(guiding)), ("bsdf", as_text(bsdf, "bsdf") == "spec")):
+        if is_set and method == "flat":
+            raise ValueError(f'{name} has an effect only with integrator="path"')
     if shutter is not None and denoise:
         raise ValueError("denoise can't be combined with a shutter")
     if shutter is not None and len(cameras) > 1:
@@ -356,7 +359,7 @@ def render(
         "filter": as_text(filter, "filter"),
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
         "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
-        "bsdf": as_text(bsdf, "bsdf"),
+        "bsdf": bsdf,
         "guiding": bool(guiding),
         "ground": _ground_arguments(ground, method),
         "crop": crop,
