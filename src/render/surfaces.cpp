@@ -1,5 +1,6 @@
 #include "render/surfaces.hpp"
 
+#include "accel/resolve/exact_hits.hpp"
 #include "render/prepared/shared_tables.hpp"
 
 #include <microtrace/integrator.hpp>
@@ -120,7 +121,8 @@ bool Surfaces::is_same_point(const Ray& ray, const Hit& a, const Hit& b) const {
     return p == other.a || p == other.b || p == other.c;
   };
   return (is_corner(one.a) || is_corner(one.b) || is_corner(one.c)) &&
-         shows_front(one, ray.d) == shows_front(other, ray.d);
+         shows_front(one, ray.d) == shows_front(other, ray.d) &&
+         ExactHits(primitives_, ray).order(a.id, b.id) == 0;
 }
 
 bool Surfaces::is_visible(const World& world, const Ray& ray, const Hit& hit) const {

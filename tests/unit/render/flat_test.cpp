@@ -97,6 +97,16 @@ TEST(Flat, SharedEdgesAreOneSurface) {
   EXPECT_EQ(stack.pixel(), Vec3(0.75F, 0, 0) + 0.25F * kBackground);
 }
 
+TEST(Flat, LayersThatMeetAtAVertexAreTwo) {
+  // The pixel's ray hits the triangles at 1 and 1 + 2^-26, which both round to 1.
+  Stack stack;
+  Mesh& mesh = stack.add(blend({1, 0, 0, 0.5F}));
+  const float behind = -1 - 0x1p-23F;
+  mesh.positions = {{-1, 0, -1}, {7, -8, -1}, {7, 8, -1}, {7, -8, behind}, {7, 8, behind}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
+  EXPECT_EQ(stack.pixel(), Vec3(0.75F, 0, 0) + 0.25F * kBackground);
+}
+
 TEST(Flat, BlendGivesTheFilmAlpha) {
   Stack stack;
   stack.add(blend({1, 0.5F, 0, 0.75F}));
