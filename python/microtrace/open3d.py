@@ -12,7 +12,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import as_array, as_float, as_integer, as_real, as_reals, as_vector
+from ._arrays import (
+    as_array,
+    as_float,
+    as_indices,
+    as_integer,
+    as_real,
+    as_reals,
+    as_rows,
+    as_vector,
+)
 from .prepared import PreparedScene
 from .scene import Scene
 
@@ -74,6 +83,10 @@ class RaycastingScene:
             vertices: another name for vertex_positions.
             triangles: another name for triangle_indices.
             mesh: a mesh of Open3D or trimesh.
+
+        Raises:
+            ValueError: an array has a wrong shape, or an index is out of range.
+            TypeError: an array has a wrong type of numbers, or there is no mesh.
         """
         positions = vertex_positions if vertices is None else vertices
         indices = triangle_indices if triangles is None else triangles
@@ -81,8 +94,16 @@ class RaycastingScene:
             mesh = positions
         if mesh is not None:
             positions, indices = _arrays_of(mesh)
+        corners = as_rows(_numbers(positions), "vertex_positions", 3)
+        faces = as_indices(_numbers(indices), "triangle_indices", 3)
+        # Queries would fail later, and all of them.
+        if faces.size and int(faces.max()) >= len(corners):
+            raise ValueError(
+                f"triangle_indices must be below the number of vertices, {len(corners)}; "
+                f"found {int(faces.max())}"
+            )
         # The scene reads arrays later, when the caller may have changed them.
-        self._scene.add_mesh(np.array(_numbers(positions)), np.array(_numbers(indices)))
+        self._scene.add_mesh(np.array(corners), np.array(faces))
         self._prepared_scene = None
         return len(self._scene.objects) - 1
 

@@ -33,6 +33,20 @@ def test_close_surfaces_count_twice():
     assert answer["ray_splits"].tolist() == [0, 2, 4]
 
 
+def test_wrong_triangles_are_not_added(box):
+    for vertices, triangles, error, words in [
+        (np.eye(3), [[0, 1, 3]], ValueError, "triangle_indices must be below .* 3; found 3"),
+        (np.eye(3), [[0, 1, -1]], ValueError, "triangle_indices must not be negative"),
+        (np.eye(3), np.eye(3), TypeError, "triangle_indices must contain integers"),
+        (np.eye(4), [[0, 1, 2]], ValueError, "vertex_positions must have shape"),
+        (np.eye(3), None, TypeError, "expected vertex positions and triangle indices, or a mesh"),
+    ]:
+        with pytest.raises(error, match=words):
+            box.add_triangles(vertices, triangles)
+    assert box.count_intersections(RAYS).tolist() == [2, 1, 0]
+    assert box.add_triangles(np.zeros((0, 3)), np.zeros((0, 3), int)) == 1
+
+
 @pytest.fixture
 def box():
     scene = RaycastingScene()
