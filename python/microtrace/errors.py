@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 import warnings
@@ -45,7 +46,7 @@ class FileError(Error, OSError):
 
 
 class MissingFileError(FileError, FileNotFoundError):
-    """There is no such file."""
+    """There is no such file or folder."""
 
 
 class LimitError(Error, MemoryError):
@@ -81,22 +82,11 @@ _CLASSES: dict[int, type[Error]] = {
 def error_of(code: int, diagnostic: Diagnostic) -> Error:
     """Makes the exception that corresponds to an exit code of the program."""
     kind = _CLASSES.get(code, Error)
-    if kind is FileError and _is_missing(diagnostic.file):
+    if kind is FileError and os.strerror(errno.ENOENT) in diagnostic.message:
         kind = MissingFileError
     error = kind(diagnostic.text)
     error.diagnostic = diagnostic
     return error
-
-
-def _is_missing(path: str) -> bool:
-    """Returns False also if the path can't be examined."""
-    try:
-        os.stat(path)
-    except (FileNotFoundError, NotADirectoryError):
-        return True
-    except (OSError, ValueError):
-        return False
-    return False
 
 
 def warn_caller(warning: Warning) -> None:

@@ -85,7 +85,10 @@ def _close(core: _core.Viewer, process: int) -> None:
 def words_of(options: str | Sequence[str]) -> list[str]:
     """Returns the words of options of the command line."""
     if isinstance(options, str):
-        return shlex.split(options)
+        try:
+            return shlex.split(options)
+        except ValueError as error:
+            raise ValueError(f"options can't be divided into words: {error}") from None
     try:
         return [str(word) for word in options]
     except TypeError:

@@ -468,6 +468,21 @@ def test_warnings_of_files(tmp_path):
     assert warned[0].message.diagnostic.file == str(path)
 
 
+def test_only_missing_files_are_not_found(tmp_path):
+    picture = mt.render(mt.Scene(objects=[mt.Object(mt.Sphere())]), size=(4, 4), spp=1)
+    (tmp_path / "file").write_text("")
+    for act, error in (
+        (lambda: mt.load(tmp_path / "file" / "a.json"), mt.FileError),
+        (lambda: picture.save(tmp_path / "file" / "a.png"), mt.FileError),
+        (lambda: picture.save("/dev/full"), mt.FileError),
+        (lambda: mt.load(tmp_path / "none" / "a.json"), FileNotFoundError),
+        (lambda: picture.save(tmp_path / "none" / "a.png"), FileNotFoundError),
+    ):
+        with pytest.raises(error) as caught:
+            act()
+        assert isinstance(caught.value, FileNotFoundError) == (error is FileNotFoundError)
+
+
 def test_paths_that_cannot_be_examined():
     with pytest.raises(mt.FileError) as caught:
         mt.load("a" * 300 + ".glb")

@@ -95,8 +95,9 @@ def test_two_pages_and_ports():
         assert first.url != second.url
         assert picture(first, ["--size", "8x8", "--spp", "1"]).shape == (8, 8, 3)
         assert picture(second, ["--size", "9x9", "--spp", "1"]).shape == (9, 9, 3)
-        with pytest.raises(mt.FileError, match="can't be used"):
+        with pytest.raises(mt.FileError, match="can't be used") as caught:
             scene.view(port=first.port)
+        assert not isinstance(caught.value, FileNotFoundError)
         port = first.port
     with scene.view(port=port) as again:
         assert again.port == port
@@ -110,6 +111,10 @@ def test_wrong_arguments():
         scene.view(["--spp", "0"])
     with pytest.raises(ValueError, match="port"):
         scene.view(port=65536)
+    with pytest.raises(ValueError, match="options can't be divided into words"):
+        scene.view("--view 'front")
+    with pytest.raises(TypeError, match="options must be a str or a list, not 3"):
+        scene.view(3)
 
 
 def test_pages_close_at_any_time():
