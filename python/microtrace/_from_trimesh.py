@@ -121,8 +121,4 @@ def _material(source: Any, *, has_uv: bool) -> Material | None:
 
 def _texture(picture: Any) -> Texture | None:
     """Makes a texture from a Pillow image."""
-    if picture is None:
-        return None
-    if getattr(picture, "mode", "RGB") not in ("L", "LA", "RGB", "RGBA"):
-        picture = picture.convert("RGBA")
-    return Texture(image=Image(np.asarray(picture)))
+    return None if picture is None else Texture(image=Image(picture))

@@ -21,12 +21,12 @@ class Image:
     Args:
         pixels: (height, width) or (height, width, channels) of uint8 or uint16, which are copied.
             The maximum value means 1. The channels are gray; gray and alpha; rgb; or rgb and alpha.
-            Colors are not premultiplied.
+            Colors are not premultiplied. Pillow's images may have any mode.
         name: any text.
     """
 
     def __init__(self, pixels: npt.ArrayLike, name: str = "") -> None:
-        array = as_array(pixels, "pixels")
+        array = as_array(_direct(pixels), "pixels")
         if array.ndim == 0:
             raise TypeError(f"pixels must be an array of uint8 or uint16, not {pixels!r}")
         if array.dtype.newbyteorder("=") not in (np.uint8, np.uint16):
@@ -88,6 +88,16 @@ class RadianceMap:
 
     def __repr__(self) -> str:
         return f"RadianceMap({self.pixels.shape})"
+
+
+#: Modes of Pillow's images whose pixels are the numbers of an Image.
+_DIRECT_MODES = ("L", "LA", "RGB", "RGBA", "I;16", "I;16L", "I;16B", "I;16N")
+
+
+def _direct(pixels: Any) -> Any:
+    """Converts Pillow's images with palettes or other color spaces than RGB."""
+    is_pillow = hasattr(pixels, "mode") and hasattr(pixels, "convert")
+    return pixels.convert("RGBA") if is_pillow and pixels.mode not in _DIRECT_MODES else pixels
 
 
 def load_map(path: str | PathLike[str]) -> RadianceMap:

@@ -245,7 +245,8 @@ class Reader {
     read_rows(mesh, "colors", result.colors);
     read_rows(mesh, "segments", result.segments);
     for (const nb::handle set : list_of(mesh.attr("uv"), "uv", "a list"))
-      result.uv_sets.push_back(set.is_none() ? Array<Vec2>() : rows_of<Vec2>(set, "uv"));
+      result.uv_sets.push_back(set.is_none() ? Array<Vec2>()
+                                             : rows_of<Vec2>(set, "each set of uv"));
     return result;
   }
 
@@ -326,6 +327,11 @@ class Reader {
     wrong("a camera", camera);
   }
 
+  static constexpr const char* kContents = "\"studio\", a color or a microtrace.RadianceMap";
+  [[noreturn]] static void refuse_content() {
+    throw nb::value_error((std::string("content must be ") + kContents).c_str());
+  }
+
   friend std::optional<Environment> microtrace::python::environment_from_python(
       const nb::handle& environment);
   std::optional<Environment> environment_of(const nb::handle& environment) {
@@ -339,13 +345,14 @@ class Reader {
     if (is(content, "images", "RadianceMap")) {
       result.content = nb::cast<const SharedMap&>(content.attr("_data")).map;
     } else if (nb::isinstance<nb::str>(content)) {
-      if (nb::cast<std::string>(content) != "studio")
-        throw nb::value_error("content must be \"studio\", a color or a RadianceMap");
+      if (nb::cast<std::string>(content) != "studio") refuse_content();
       result.content = Studio{};
     } else {
+      const nb::list color = list_of(content, "content", kContents);
+      if (color.size() != 3) refuse_content();
       Vec3 radiance;
       field_ = "content";
-      read(content, radiance);
+      read(color, radiance);
       result.content = radiance;
     }
     return result;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <nanobind/stl/array.h>
 #include <string>
+#include <type_traits>
 
 namespace microtrace::python {
 
@@ -41,8 +42,13 @@ constexpr const char* kWords<std::array<double, 10>> = "10 numbers";
 template <class T>
 T cast(const nb::handle& value, const char* attribute) {
   T result{};
-  if (!nb::try_cast(value, result)) refuse(attribute, kWords<T>, value);
-  return result;
+  if (nb::try_cast(value, result)) return result;
+  if constexpr (std::is_same_v<T, bool>) {
+    // NumPy's truth values are not those of Python.
+    if (nb::isinstance(value, nb::module_::import_("numpy").attr("bool_")))
+      return nb::cast<bool>(nb::bool_(nb::borrow(value)));
+  }
+  refuse(attribute, kWords<T>, value);
 }
 
 /// Returns the items of an attribute's value.

@@ -261,6 +261,33 @@ def test_texts_are_short():
     assert "<float32 (352, 3)>" in repr(scene.objects[0].shape)
 
 
+def test_images_of_pillow():
+    pillow = pytest.importorskip("PIL.Image")
+    red = pillow.new("RGB", (3, 2), (255, 0, 0))
+    for mode in ("RGB", "RGBA", "P", "CMYK", "YCbCr", "HSV"):
+        pixels = mt.Image(red.convert(mode)).pixels
+        assert pixels.shape[:2] == (2, 3)
+        assert np.abs(pixels[0, 0].astype(int)[:3] - (255, 0, 0)).max() <= 1, mode
+    assert mt.Image(red.convert("1")).pixels.dtype == np.uint8
+    gray = pillow.fromarray(np.full((2, 3), 40000, np.uint16))
+    assert (mt.Image(gray).pixels == 40000).all()
+    scene = mt.Scene()
+    scene.add_sphere(material=mt.Material(base_color_texture=red.convert("P")))
+    assert (
+        scene.prepare().scene.objects[0].material.base_color_texture.texture.image.pixels[0, 0]
+        == [255, 0, 0, 255]
+    ).all()
+
+
+def test_truth_values_of_numpy():
+    scene = mt.Scene(environment=mt.Environment(is_background=np.bool_(False)))
+    for value in (True, False):
+        scene.add_sphere(material=mt.Material(double_sided=np.bool_(value)))
+    again = scene.prepare().scene
+    assert [m.double_sided for m in again.materials] == [True, False]
+    assert again.environment.is_background is False
+
+
 def test_images():
     pixels = np.arange(24, dtype=np.uint8).reshape(2, 4, 3)
     image = mt.Image(pixels, "checker")

@@ -143,6 +143,7 @@ def test_paths_that_are_bytes(tmp_path, prepared):
         ({"base_color_factor": 1}, "base_color_factor must be 4 numbers, not 1"),
         ({"base_color_factor": (1, 1, 1, "1")}, "base_color_factor must be a number, not '1'"),
         ({"unlit": 1}, "unlit must be True or False, not 1"),
+        ({"unlit": np.int64(1)}, "unlit must be True or False, not"),
         ({"name": None}, "name must be a str, not None"),
         ({"sheen": mt.Clearcoat()}, "sheen must be a microtrace.Sheen, not Clearcoat"),
     ],
@@ -150,6 +151,17 @@ def test_paths_that_are_bytes(tmp_path, prepared):
 def test_attributes(fields, words):
     with pytest.raises((TypeError, ValueError), match=words):
         with_material(**fields)
+
+
+def test_environments_and_texture_coordinates():
+    words = 'content must be "studio", a color or a microtrace.RadianceMap'
+    for content in ("sky.hdr", np.ones((2, 4, 3)), (1, 1), None, 3):
+        with pytest.raises((TypeError, ValueError), match=words):
+            prepared_with(environment=mt.Environment(content))
+    assert prepared_with(environment=mt.Environment(iter((1, 2, 3)))).scene.environment
+    shape = mt.Mesh(vertices=np.eye(3), faces=[[0, 1, 2]], uv=np.zeros((3, 2)))
+    with pytest.raises(ValueError, match=r"each set of uv must have shape \(n, 2\), not \(2,\)"):
+        prepared_with(shape)
 
 
 def test_exceptions_of_iterators_are_not_replaced():
