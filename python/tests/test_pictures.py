@@ -134,6 +134,15 @@ def test_lights_of_files_are_not_blown_out(program, tmp_path):
             picture.tonemap(exposure=value)
 
 
+def test_the_module_runs_the_program(tmp_path):
+    arguments = [KNOT, "--size", "16x12", "--spp", "1", "-q", "-o", tmp_path / "module.png"]
+    subprocess.run([sys.executable, "-m", "microtrace", *arguments], check=True)
+    mt.render(mt.load(KNOT), size=(16, 12), spp=1).save(tmp_path / "ours.png")
+    assert (tmp_path / "module.png").read_bytes() == (tmp_path / "ours.png").read_bytes()
+    wrong = subprocess.run([sys.executable, "-m", "microtrace"], capture_output=True)
+    assert wrong.returncode == 2 and b"SCENE is required" in wrong.stderr
+
+
 def test_ground(program, tmp_path):
     cube = SCENES / "gltf" / "cube.glb"
     ours, theirs = tmp_path / "ours.png", tmp_path / "theirs.png"

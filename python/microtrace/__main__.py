@@ -1,0 +1,5 @@
+"""Runs the program: python -m microtrace."""
+
+from microtrace_program import main
+
+main()
