@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "fields.hpp"
 #include "images.hpp"
+#include "scene/validate/validate.hpp"
 #include "values.hpp"
 
 #include <memory>
@@ -372,10 +373,14 @@ Scene scene_from_python(const nb::handle& scene) {
 }
 
 Camera camera_from_python(const nb::handle& camera) {
-  Scene scene;
-  scene.cameras.push_back({.name = "", .camera = Reader(camera).camera_of(camera)});
-  validate(scene);
-  return scene.cameras[0].camera;
+  Camera result = Reader(camera).camera_of(camera);
+  if (const auto broken = validate(result)) {
+    throw Error(broken->kind, {.file = {},
+                               .pointer = "/camera/" + broken->field,
+                               .message = broken->message,
+                               .excerpt = {}});
+  }
+  return result;
 }
 
 std::optional<Environment> environment_from_python(const nb::handle& environment) {
