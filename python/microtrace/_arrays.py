@@ -158,9 +158,12 @@ def as_crop(value: Any, size: tuple[int, int]) -> tuple[int, int, int, int]:
 
 
 def as_text(value: Any, what: str) -> str:
-    """Returns a str. Raises TypeError for anything else."""
+    """Returns a str without surrogates, which C++ code can't read. Raises TypeError or ValueError
+    otherwise."""
     if not isinstance(value, str):
         raise TypeError(f"{what} must be a str, not {value!r}")
+    if any("\ud800" <= letter <= "\udfff" for letter in value):
+        raise ValueError(f"{what} must not contain surrogates, is {value!r}")
     return value
 
 

@@ -327,7 +327,7 @@ class SceneFile:
 def _chosen(value: Any, what: str) -> str:
     """Returns a name or an index as text."""
     if isinstance(value, str):
-        return value
+        return as_text(value, what)
     try:
         return str(operator.index(value))
     except TypeError:

@@ -13,6 +13,7 @@ from types import TracebackType
 from microtrace_program import find_denoiser
 
 from . import _core
+from ._arrays import as_text
 
 
 class View:
@@ -85,11 +86,12 @@ def _close(core: _core.Viewer, process: int) -> None:
 def words_of(options: str | Sequence[str]) -> list[str]:
     """Returns the words of options of the command line."""
     if isinstance(options, str):
+        as_text(options, "options")
         try:
             return shlex.split(options)
         except ValueError as error:
             raise ValueError(f"options can't be divided into words: {error}") from None
     try:
-        return [str(word) for word in options]
+        return [as_text(str(word), "options") for word in options]
     except TypeError:
         raise TypeError(f"options must be a str or a list, not {options!r}") from None

@@ -346,7 +346,7 @@ class Reader {
     if (is(content, "images", "RadianceMap")) {
       result.content = nb::cast<const SharedMap&>(content.attr("_data")).map;
     } else if (nb::isinstance<nb::str>(content)) {
-      if (nb::cast<std::string>(content) != "studio") refuse_content();
+      if (cast<std::string>(content, "content") != "studio") refuse_content();
       result.content = Studio{};
     } else {
       const nb::list color = list_of(content, "content", kContents);

@@ -48,6 +48,8 @@ T cast(const nb::handle& value, const char* attribute) {
     if (nb::isinstance(value, nb::module_::import_("numpy").attr("bool_")))
       return nb::cast<bool>(nb::bool_(nb::borrow(value)));
   }
+  if (std::is_same_v<T, std::string> && nb::isinstance<nb::str>(value))
+    refuse(attribute, "a str without surrogates", value);
   refuse(attribute, kWords<T>, value);
 }
 

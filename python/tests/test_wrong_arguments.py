@@ -164,6 +164,22 @@ def test_environments_and_texture_coordinates():
         prepared_with(shape)
 
 
+def test_texts_that_are_not_unicode(prepared):
+    bad, one = "\udcff", {"camera": CAMERA, "size": (4, 4), "spp": 1}
+    for name, act in (
+        ("name", lambda: mt.Image(np.zeros((1, 1), np.uint8), bad)),
+        ("name", lambda: prepared_with(materials=[mt.Material(name=bad)])),
+        ("content", lambda: prepared_with(environment=mt.Environment(bad))),
+        ("variant", lambda: mt.load(CUBE, variant=bad)),
+        ("filter", lambda: mt.render(prepared, filter=bad, **one)),
+        ("tone_map", lambda: mt.render(prepared, **one).tonemap(tone_map=bad)),
+        ("options", lambda: prepared.view(["--env", bad])),
+        ("options", lambda: prepared.view(f"--env {bad}")),
+    ):
+        with pytest.raises((ValueError, TypeError), match=f"^{name} must .* surrogates"):
+            act()
+
+
 def test_exceptions_of_iterators_are_not_replaced():
     def fail():
         raise ZeroDivisionError("mine")
