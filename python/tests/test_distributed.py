@@ -152,6 +152,25 @@ def test_wrong_arguments(client, tmp_path):
         md.dataset(client, scene, tmp_path, options=["--bogus"])
     with pytest.raises(FileNotFoundError):
         md.dataset(client, "missing.glb", tmp_path / "set")
+    for name, value in [
+        ("scene", None),
+        ("scene", "\udcff"),
+        ("url", 3),
+        ("views", np.eye(4)),
+        ("formats", "png"),
+        ("formats", 3),
+        ("options", "--spp 1"),
+        ("options", None),
+        ("options", ["--spp", 1]),
+        ("storage_options", 3),
+        ("retries", "many"),
+        ("progress", 3),
+    ]:
+        arguments = {"scene": scene, "url": tmp_path / "set", "options": ["--size=8x8"]}
+        with pytest.raises((TypeError, ValueError), match=f"^(a word of )?{name} must"):
+            md.dataset(client, **{**arguments, name: value})
+    with pytest.raises(TypeError, match="retries must be an integer"):
+        md.render(client, mt.load(scene), retries="many")
     with pytest.raises(TypeError, match="Client"):
         md.render(None, mt.load(scene))
     with pytest.raises(ValueError, match="spp"):

@@ -19,6 +19,7 @@ from distributed import Client, get_worker
 from microtrace_program import find_denoiser
 
 from .. import _core
+from .._arrays import MOST, as_integer, as_path, as_text
 from ..errors import Diagnostic, error_of, warn
 from ..pictures import _shown
 from ._ranges import Outcome, RangeRun
@@ -205,14 +206,18 @@ def dataset(
         OSError, MemoryError: a file can't be read, or all retries failed.
     """
     require_synchronous(client)
-    if isinstance(formats, str) or isinstance(options, str):
-        raise TypeError("formats and options must be sequences of strings")
-    for option in options:
+    retries = as_integer(retries, "retries", 0, MOST)
+    more = _words(options, "options")
+    for option in more:
         if option.partition("=")[0] in _TAKEN:
             raise ValueError(f"{option}: use the arguments url, views and formats instead")
-    words = [os.fspath(scene), "--formats=" + ",".join(formats), *options, "--output=."]
+    words = [_path(scene, "scene"), "--formats=" + ",".join(_words(formats, "formats"))]
+    words += [*more, "--output=."]
     if views is not None:
-        words.append(f"--views={os.fspath(views)}")
+        words.append(f"--views={_path(views, 'views')}")
+    folder = as_path(url, "url")
+    if not isinstance(storage_options, (Mapping, type(None))):
+        raise TypeError(f"storage_options must be a mapping, not {storage_options!r}")
     warned: set[tuple[int, int, str]] = set()
 
     def warn_once(warnings: Iterable[Diagnostic]) -> None:
@@ -226,7 +231,7 @@ def dataset(
     find_denoiser()
     core, names = _core.read_dataset(words)
     warn_once(core.take_warnings())
-    store = Store(os.fspath(url), storage_options or {})
+    store = Store(folder, storage_options or {})
     description, is_new = _create(core, store)
     files = {os.path.abspath(name): Path(name).read_bytes() for name in names}
     order = np.array(core.order(), np.uint32)
@@ -245,6 +250,16 @@ def dataset(
         ).run()
     _finish(core, store, description)
     return Summary(count, count - len(kept), len(kept))
+
+
+def _words(values: Iterable[str], what: str) -> list[str]:
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError(f"{what} must be a sequence of strings, not {values!r}")
+    return [as_text(value, f"a word of {what}") for value in values]
+
+
+def _path(value: Any, what: str) -> str:
+    return as_text(as_path(value, what), what)
 
 
 def _create(core: _core.Dataset, store: Store) -> tuple[bytes, bool]:

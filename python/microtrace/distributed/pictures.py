@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from distributed import Client
 
-from .._arrays import as_size
+from .._arrays import MOST, as_integer, as_size
 from ..cameras import Camera, Vector
 from ..errors import warn_caller
 from ..lights import Environment
@@ -179,10 +179,11 @@ def render(
         SceneWarning: see microtrace.render().
     """
     require_synchronous(client)
+    retries = as_integer(retries, "retries", 0, MOST)
     wanted = _checked(aovs)
     names = _with_features(wanted) if denoise else wanted
     if not isinstance(scene, (Scene, PreparedScene)):
-        raise TypeError(f"expected a Scene or a PreparedScene, not {type(scene)}")
+        raise TypeError(f"expected a Scene or a PreparedScene, not {type(scene).__name__}")
     if isinstance(scene, PreparedScene):
         scene = scene.scene
     denoiser = _denoiser(wanted, integrator or scene.integrator) if denoise else ""
