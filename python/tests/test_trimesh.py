@@ -7,6 +7,7 @@ import itertools
 import pickle
 import subprocess
 import sys
+from fractions import Fraction
 
 import microtrace as mt
 import numpy as np
@@ -126,6 +127,48 @@ def test_folds_at_a_vertex_count_three_times():
     assert len(engine.intersects_location([[0.5, 0.1, -3]], [[0, 0, 1]])[0]) == 3
     # At the vertex itself, one hit counts for each side.
     assert engine.intersects_id([[0, 0, -3]], [[0, 0, 1]])[0].tolist() == [0, 1]
+
+
+def hits_by_fractions(corners, origin):
+    """Returns the triangles that count for a ray along z, by exact arithmetic."""
+    found = []
+    for k, (a, b, c) in enumerate(corners):
+        area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        if area == 0:
+            continue
+        sides = [
+            ((q[0] - p[0]) * (origin[1] - p[1]) - (q[1] - p[1]) * (origin[0] - p[0])) / area
+            for p, q in ((b, c), (c, a), (a, b))
+        ]
+        t = sum(w * p[2] for w, p in zip(sides, (a, b, c))) - origin[2]
+        if min(sides) >= 0 and t >= 0:
+            found.append((t, k, area > 0, {a, b, c}))
+    found.sort(key=lambda hit: hit[:2])
+    return [
+        hit[1]
+        for i, hit in enumerate(found)
+        if not any(g[0] == hit[0] and g[2] == hit[2] and g[3] & hit[3] for g in found[:i])
+    ]
+
+
+def test_hits_of_thin_meshes_equal_those_of_fractions(rng):
+    """The vertices are so close to a plane that all t round to the same number."""
+    counts = []
+    for _ in range(25):
+        vertices = rng.integers(-2, 3, (9, 3)).astype(float)
+        vertices[:, 2] = rng.integers(-3, 4, 9) * 2.0**-30
+        vertices = np.concatenate([vertices, [[9, 9, 9], [-9, -9, -9]]])  # the center is 0
+        faces = rng.integers(0, 9, (14, 3))
+        mesh = trimesh.Trimesh(vertices, faces, process=False)
+        origins = np.concatenate([rng.integers(-4, 5, (40, 2)) / 2, np.full((40, 1), -3.0)], 1)
+        tri, ray = RayMeshIntersector(mesh).intersects_id(origins, np.tile([0, 0, 1.0], (40, 1)))
+        points = [tuple(map(Fraction, p)) for p in vertices.tolist()]
+        corners = [[points[i] for i in face] for face in faces.tolist()]
+        for i, origin in enumerate(origins.tolist()):
+            wanted = hits_by_fractions(corners, list(map(Fraction, origin)))
+            assert tri[ray == i].tolist() == wanted
+            counts.append(len(wanted))
+    assert sum(count > 2 for count in counts) > 100
 
 
 @pytest.mark.parametrize("scale", [1e-4, 0.1, 1, 10, 1e4, 1e8])
