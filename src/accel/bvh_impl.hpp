@@ -48,7 +48,8 @@ struct Bvh::Impl {
     return {.primitives = primitives,
             .outside = outside,
             .kernels = *kernels,
-            .tree = view_without_few()};
+            .tree = view_without_few(),
+            .duplicates = tree.duplicates};
   }
   [[nodiscard]] FastSpawns make_spawns() const {
     return {primitives, outside, *kernels, *spawn_kernels,

@@ -47,7 +47,10 @@ void RayStream::fill(const RayColumns& rays) {
     std::copy_n(rays.o[axis], rays.count, s.o[axis]);
     std::copy_n(rays.d[axis], rays.count, s.d[axis]);
   }
-  std::fill_n(s.t_min, rays.count, 0.0F);
+  if (rays.t_min == nullptr)
+    std::fill_n(s.t_min, rays.count, 0.0F);
+  else
+    std::copy_n(rays.t_min, rays.count, s.t_min);
   std::copy_n(rays.t_max, rays.count, s.best_hi);
   std::copy_n(rays.left, rays.count, s.omitted_id);
   prepare();
@@ -81,15 +84,40 @@ bool meets_open_front(const Primitives& primitives, const std::uint32_t* open, c
   return !(glm::dot(glm::cross(DVec3(t.b) - a, DVec3(t.c) - a), DVec3(ray.d)) > 0);
 }
 
+void RayStream::consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) const {
+  if (!is_suited(i)) return;
+  const Ray own = ray(i);
+  if (meets_open_front(target_.primitives, target_.tree.open_fronts, own, id)) return;
+  const HitResolver resolver(target_.primitives, own);
+  ClosestSoFar nearer = best;
+  resolver.consider(id, nearer);
+  if (nearer.id != id || !masked_.lets_pass(first_ + i, own, id)) {
+    best = nearer;
+    return;
+  }
+  // Duplicates aren't in the tree, but may be visible.
+  std::optional<PrimitiveId> other = target_.duplicates.above(id, id);
+  while (other && masked_.lets_pass(first_ + i, own, *other))
+    other = target_.duplicates.above(id, *other);
+  if (other) resolver.consider(*other, best);
+}
+
+Visible RayStream::visible(std::size_t i, PrimitiveId id) const {
+  if (!is_suited(i) || !masked_.lets_pass(first_ + i, ray(i), id)) return Visible::yes;
+  if (target_.duplicates.empty()) return Visible::no;
+  return target_.duplicates.above(id, id) ? Visible::unsure : Visible::no;
+}
+
 StreamFallback RayStream::fallback() {
-  return {.context = this, .consider = [](void* self, int i, std::uint32_t id, ClosestSoFar& best) {
-            const RayStream& stream = *static_cast<const RayStream*>(self);
-            const auto place = static_cast<std::size_t>(i);
-            if (!stream.is_suited(place)) return;
-            const Ray own = stream.ray(place);
-            const Target& target = stream.target_;
-            if (meets_open_front(target.primitives, target.tree.open_fronts, own, id)) return;
-            HitResolver(stream.target_.primitives, own).consider(id, best);
+  return {
+      .context = this,
+      .consider =
+          [](void* self, int i, std::uint32_t id, ClosestSoFar& best) {
+            static_cast<const RayStream*>(self)->consider(static_cast<std::size_t>(i), id, best);
+          },
+      .visible =
+          [](void* self, int i, std::uint32_t id) {
+            return static_cast<const RayStream*>(self)->visible(static_cast<std::size_t>(i), id);
           }};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Traces arrays of incoherent rays with the stream kernels.
 
+#include "accel/build/references/duplicates.hpp"
 #include "accel/kernels/kernel.hpp"
 
 #include <microtrace/primitives.hpp>
@@ -14,13 +15,14 @@ namespace microtrace {
 
 /// Rays in one array per component, and the primitives that they leave as in Bvh::intersect.
 struct RayColumns {
-  const float *o[3], *d[3], *t_max;  ///< t_min is 0
+  const float *o[3], *d[3], *t_max;
   const PrimitiveId* left;
   std::size_t count;
+  const float* t_min = nullptr;  ///< null for 0
 
   [[nodiscard]] Ray operator[](std::size_t i) const {
     return {.o = {o[0][i], o[1][i], o[2][i]},
-            .t_min = 0,
+            .t_min = t_min == nullptr ? 0 : t_min[i],
             .d = {d[0][i], d[1][i], d[2][i]},
             .t_max = t_max[i]};
   }
@@ -30,8 +32,30 @@ struct RayColumns {
             .d = {d[0] + first, d[1] + first, d[2] + first},
             .t_max = t_max + first,
             .left = left + first,
-            .count = count - first};
+            .count = count - first,
+            .t_min = t_min == nullptr ? nullptr : t_min + first};
   }
+};
+
+/// Triangles that rays pass through in some places, such as those with alpha masks.
+struct MaskedTriangles {
+  const std::uint32_t* triangles = nullptr;  ///< one bit per primitive; null: there are none
+  const void* context = nullptr;
+  /// True if ray number i of a query, which hits primitive `id`, passes through it.
+  bool (*passes)(const void* context, std::size_t i, const Ray& ray, PrimitiveId id) = nullptr;
+
+  [[nodiscard]] bool lets_pass(std::size_t i, const Ray& ray, PrimitiveId id) const {
+    return triangles != nullptr && (triangles[id / 32] >> id % 32 & 1U) != 0 &&
+           passes(context, i, ray, id);
+  }
+};
+
+/// Selects the hits that count.
+struct HitFilter {
+  /// Rays pass through the fronts of these triangles of meshes, one bit per primitive; null: there
+  /// are none.
+  const std::uint32_t* open_fronts = nullptr;
+  MaskedTriangles masked{};
 };
 
 /// True if a ray that hits primitive `id` arrives at the front of one of the triangles `open`,
@@ -48,6 +72,7 @@ class RayStream {
     std::span<const PrimitiveId> outside;  ///< primitives outside of the tree
     const Kernels& kernels;
     TreeView tree;
+    const Duplicates& duplicates;  ///< of the tree
   };
   explicit RayStream(const Target& target) : target_(target) {}
 
@@ -69,9 +94,14 @@ class RayStream {
     for_each_unsuited(other);
   }
 
-  /// Sets the triangles of meshes whose fronts rays in columns pass through, one bit per primitive;
-  /// null for none.
-  void set_open_fronts(const std::uint32_t* triangles) { target_.tree.open_fronts = triangles; }
+  /// Selects the hits that count in the following queries. The number of a query's first ray for
+  /// HitFilter is `first`.
+  void set_filter(const HitFilter& filter, std::size_t first = 0) {
+    target_.tree.open_fronts = filter.open_fronts;
+    target_.tree.masked = filter.masked.triangles;
+    masked_ = filter.masked;
+    first_ = first;
+  }
 
   /// Do the same for rays in columns. `ids` are those of the hits, or kNoPrimitive.
   void closest(const RayColumns& rays, std::span<PrimitiveId> ids, const auto& other) {
@@ -97,6 +127,8 @@ class RayStream {
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(stream_.count); }
   [[nodiscard]] Ray ray(std::size_t i) const { return rays_.empty() ? columns_[i] : rays_[i]; }
   [[nodiscard]] StreamFallback fallback();
+  void consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) const;
+  [[nodiscard]] Visible visible(std::size_t i, PrimitiveId id) const;
   [[nodiscard]] bool is_suited(std::size_t i) const {
     return (stream_.suited[i / 64] >> i % 64 & 1U) != 0;
   }
@@ -112,6 +144,8 @@ class RayStream {
   Target target_;
   std::span<const Ray> rays_;  // empty if the rays are in columns_
   RayColumns columns_{};
+  MaskedTriangles masked_{};
+  std::size_t first_ = 0;
   KernelStream stream_;
 };
 

@@ -56,14 +56,15 @@ bool RayTracer::knows_fronts() const {
 }
 
 template <class Query>
-void RayTracer::trace(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids,
+void RayTracer::trace(const RayColumns& rays, const HitFilter& filter, std::span<PrimitiveId> ids,
                       const Query& query) {
   const FloatEnvironment environment;
   const Bvh::Impl& bvh = queries().bvh;
   const auto ask_one = [&](std::size_t i) {
     const Ray ray = rays[i];
     std::optional<Hit> hit = bvh.intersect(ray);
-    while (hit && meets_open_front(bvh.primitives, open, ray, hit->id))
+    while (hit && (meets_open_front(bvh.primitives, filter.open_fronts, ray, hit->id) ||
+                   filter.masked.lets_pass(i, ray, hit->id)))
       hit = bvh.next(ray, hit->id);
     ids[i] = hit ? hit->id : kNoPrimitive;
   };
@@ -71,20 +72,20 @@ void RayTracer::trace(const RayColumns& rays, const std::uint32_t* open, std::sp
     for (std::size_t i = 0; i < rays.count; ++i) ask_one(i);
     return;
   }
-  queries().stream.set_open_fronts(open);
   for_each_part(rays, [&](const RayColumns& part, std::size_t first) {
+    queries().stream.set_filter(filter, first);
     query(part, ids.subspan(first, part.count), [&](std::size_t i) { ask_one(first + i); });
   });
-  queries().stream.set_open_fronts(nullptr);
+  queries().stream.set_filter({});
 }
 
-void RayTracer::closest(const RayColumns& rays, const std::uint32_t* open,
+void RayTracer::closest(const RayColumns& rays, const HitFilter& filter,
                         std::span<PrimitiveId> ids) {
-  trace(rays, open, ids, [this](const auto&... part) { queries().stream.closest(part...); });
+  trace(rays, filter, ids, [this](const auto&... part) { queries().stream.closest(part...); });
 }
 
-void RayTracer::any(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids) {
-  trace(rays, open, ids, [this](const auto&... part) { queries().stream.any(part...); });
+void RayTracer::any(const RayColumns& rays, const HitFilter& filter, std::span<PrimitiveId> ids) {
+  trace(rays, filter, ids, [this](const auto&... part) { queries().stream.any(part...); });
 }
 
 Hit RayTracer::hit(const Ray& ray, PrimitiveId id) const {

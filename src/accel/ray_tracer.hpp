@@ -28,10 +28,9 @@ class RayTracer {
   void begin(const Bvh& bvh);
 
   /// Set ids[i] to the primitive that ray i hits first, or to any primitive that it hits, or to
-  /// kNoPrimitive. Rays pass through the fronts of the triangles `open`, which has one bit per
-  /// primitive, unless it is null.
-  void closest(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids);
-  void any(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids);
+  /// kNoPrimitive. Only hits that `filter` selects count.
+  void closest(const RayColumns& rays, const HitFilter& filter, std::span<PrimitiveId> ids);
+  void any(const RayColumns& rays, const HitFilter& filter, std::span<PrimitiveId> ids);
 
   /// The hit of a ray with the primitive that closest() found.
   [[nodiscard]] Hit hit(const Ray& ray, PrimitiveId id) const;
@@ -46,7 +45,7 @@ class RayTracer {
  private:
   /// Calls query(rays, ids, ask_one) for parts of the rays, which the stream can trace.
   template <class Query>
-  void trace(const RayColumns& rays, const std::uint32_t* open, std::span<PrimitiveId> ids,
+  void trace(const RayColumns& rays, const HitFilter& filter, std::span<PrimitiveId> ids,
              const Query& query);
 
   struct Queries;  // for one Bvh

@@ -4,6 +4,7 @@
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_tracer.hpp"
 #include "support/cases/adversarial_scenes.hpp"
+#include "support/cases/placed_scenes.hpp"
 
 #include <microtrace/bvh.hpp>
 
@@ -80,12 +81,12 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
     }
     const RayColumns rays = columns.view();
     std::vector<PrimitiveId> ids(rays.count);
-    tracer.closest(rays, nullptr, ids);
+    tracer.closest(rays, {}, ids);
     std::vector<PrimitiveId> any(rays.count), behind(rays.count), first_behind(rays.count);
-    tracer.any(rays, nullptr, any);
+    tracer.any(rays, {}, any);
     if (tracer.knows_fronts()) {
-      tracer.any(rays, open.data(), behind);
-      tracer.closest(rays, open.data(), first_behind);
+      tracer.any(rays, {.open_fronts = open.data()}, behind);
+      tracer.closest(rays, {.open_fronts = open.data()}, first_behind);
     }
     for (std::size_t i = 0; i < rays.count; ++i) {
       const Ray ray = rays[i];
@@ -113,6 +114,91 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
   }
   EXPECT_GT(passed, 400U);
   EXPECT_GT(blocked, 2000U);
+}
+
+/// True if a ray passes through a masked triangle: a random decision for each pair.
+bool passes_at_random(const void* /*context*/, std::size_t i, const Ray& ray, PrimitiveId id) {
+  const auto number = static_cast<std::uint32_t>(i * 0x9e3779b9U) ^ (id * 0x85ebca6bU);
+  EXPECT_EQ(ray.t_max, static_cast<float>(i + 1));  // the ray's number is right
+  return (number * 0xc2b2ae35U >> 30U) != 0;
+}
+
+/// Compares queries that pass through random open fronts and masked triangles.
+void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::size_t& passed,
+                  std::size_t& found) {
+  const Bvh bvh(scene);
+  tracer.begin(bvh);
+  const PrimitiveId count = bvh.primitives().count();
+  std::vector<std::uint32_t> open(count / 32 + 1), masked(count / 32 + 1);
+  for (PrimitiveId id = 0; id < count; ++id) {
+    const bool on_mesh = std::holds_alternative<Mesh>(bvh.primitives().object(id).shape);
+    if (on_mesh && random.one_in(2)) masked[id / 32] |= 1U << id % 32;
+    if (on_mesh && random.one_in(3)) open[id / 32] |= 1U << id % 32;
+  }
+  const bool with_open = tracer.knows_fronts() && random.one_in(2);
+  const HitFilter filter{.open_fronts = with_open ? open.data() : nullptr,
+                         .masked = {.triangles = masked.data(), .passes = passes_at_random}};
+  Columns columns;
+  std::vector<float> t_min;
+  // More rays than a stream traces at a time.
+  const int rays_count = random.one_in(20) ? kStreamRays + 30 : 40;
+  for (int i = 0; i < rays_count; ++i) {
+    Ray ray = random_ray(random, scene, origin(random, scene));
+    ray.t_max = static_cast<float>(i + 1);
+    if (!(ray.t_min <= 1)) ray.t_min = 0;
+    columns.add(ray);
+    t_min.push_back(ray.t_min);
+  }
+  RayColumns rays = columns.view();
+  rays.t_min = t_min.data();
+  std::vector<PrimitiveId> closest(rays.count), any(rays.count);
+  tracer.closest(rays, filter, closest);
+  tracer.any(rays, filter, any);
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    const Ray ray = rays[i];
+    const auto passes = [&](PrimitiveId id) {
+      return meets_open_front(bvh.primitives(), filter.open_fronts, ray, id) ||
+             filter.masked.lets_pass(i, ray, id);
+    };
+    std::optional<Hit> hit = bvh.intersect(ray);
+    const bool is_hit = hit.has_value();
+    while (hit && passes(hit->id)) hit = bvh.next(ray, *hit);
+    ASSERT_EQ(closest[i], hit ? hit->id : kNoPrimitive) << "ray " << i;
+    ASSERT_EQ(any[i] != kNoPrimitive, hit.has_value()) << "ray " << i;
+    if (hit) {
+      ASSERT_FALSE(passes(any[i]));
+    }
+    passed += is_hit && !hit ? 1 : 0;
+    found += hit ? 1 : 0;
+  }
+}
+
+TEST_P(Fronts, RaysPassThroughMaskedTriangles) {
+  Random random(32);
+  RayTracer tracer;
+  std::size_t passed = 0, found = 0;
+  for (int round = 0; round < 600; ++round) {
+    SCOPED_TRACE("scene " + std::to_string(round));
+    check_masked(random, tracer, random_scene(random), passed, found);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(passed, 400U);
+  EXPECT_GT(found, 2000U);
+}
+
+TEST_P(Fronts, RaysPassThroughMaskedTrianglesOfInstances) {
+  Random random(33);
+  RayTracer tracer;
+  std::size_t passed = 0, found = 0;
+  for (int round = 0; round < 12; ++round) {
+    for (const PlacementKind kind : kPlacementKinds) {
+      SCOPED_TRACE("scene " + std::to_string(round));
+      check_masked(random, tracer, random_placed_scenes(random, kind).instanced, passed, found);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(passed, 400U);
+  EXPECT_GT(found, 2000U);
 }
 
 }  // namespace

@@ -69,6 +69,28 @@ struct BlockTest {
   alignas(32) float height_[kWidth], size_[kWidth], height_error_[kWidth];
 };
 
+/// The callbacks for a ray without masked triangles.
+struct RayFallback {
+  const Fallback& slow;
+
+  void operator()(std::uint32_t id, ClosestSoFar& best) const {
+    slow.consider(slow.context, id, best);
+  }
+  [[nodiscard]] Visible visible(std::uint32_t) const { return Visible::yes; }
+};
+/// The callbacks for one ray of a stream.
+struct StreamRayFallback {
+  const StreamFallback& slow;
+  int ray;
+
+  void operator()(std::uint32_t id, ClosestSoFar& best) const {
+    slow.consider(slow.context, ray, id, best);
+  }
+  [[nodiscard]] Visible visible(std::uint32_t id) const {
+    return slow.visible(slow.context, ray, id);
+  }
+};
+
 /// Calls f(entry) for each entry of a leaf until f returns true. Returns true if f did.
 template <class F>
 inline bool for_each_entry(ChildRef leaf, const F& f) {
@@ -90,10 +112,20 @@ struct RayFromMin {
   float t_min;
 };
 
-/// Sets `best` to the hit of triangle k of a block if that hit is nearer. `fallback` decides
-/// uncertain cases.
+inline bool is_in(const std::uint32_t* primitives, std::uint32_t id) {
+  return primitives != nullptr && (primitives[id / 32] >> id % 32 & 1U) != 0;
+}
+inline bool is_open_front(const TreeView& tree, std::uint32_t id) {
+  return is_in(tree.open_fronts, id);
+}
+inline bool is_masked(const TreeView& tree, std::uint32_t id) {
+  return is_in(tree.masked, id);
+}
+
+/// Sets `best` to the hit of triangle k of a block if that hit is nearer and counts. `fallback`
+/// decides uncertain cases.
 template <class Slowly>
-inline void consider(const TriangleBlock& block, int k, const RayFromMin& ray,
+inline void consider(const TreeView& tree, const TriangleBlock& block, int k, const RayFromMin& ray,
                      const PossibleHit& hit, ClosestSoFar& best, const Slowly& fallback) {
   const Interval<float> t = hit.t;
   bool is_certain = hit.is_certain;
@@ -103,14 +135,16 @@ inline void consider(const TriangleBlock& block, int k, const RayFromMin& ray,
     is_certain = within == Within::yes && hit.has_t;
   }
   if (is_certain && t.lo > best.hi) return;
-  if (is_certain && t.hi < best.lo && t.lo >= ray.t_min)
+  bool is_nearer = is_certain && t.hi < best.lo && t.lo >= ray.t_min;
+  if (is_nearer && is_masked(tree, block.id[k])) {
+    const Visible visible = fallback.visible(block.id[k]);
+    if (visible == Visible::no) return;
+    is_nearer = visible == Visible::yes;
+  }
+  if (is_nearer)
     best = {t.lo, t.hi, block.id[k]};
   else if (!(t.lo <= ray.t_min && is_left_behind(block, k, ray.o, ray.d)))
     fallback(block.id[k], best);
-}
-
-inline bool is_open_front(const TreeView& tree, std::uint32_t id) {
-  return tree.open_fronts != nullptr && (tree.open_fronts[id / 32] >> id % 32 & 1U) != 0;
 }
 
 /// Sets `best` to the nearest hit among the lanes that a block's test has not rejected, if that hit
@@ -130,7 +164,7 @@ inline void meet_lanes(const TreeView& tree, const TriangleBlock& block, const B
       if (kAny && best.id != kNoPrimitive) return;
       if (front != Within::no) continue;
     }
-    consider(block, lane, {ray.o, ray.d, ray.t_min},
+    consider(tree, block, lane, {ray.o, ray.d, ray.t_min},
              {.t = test.t(lane),
               .is_certain = (test.certain >> lane & 1U) != 0,
               .has_t = test.has_t(lane)},

@@ -139,7 +139,8 @@ class FewTrianglesWalk {
     Lanes first = hits.maybe & ~hits.second & ~equal_to<N>(omitted_id, first_id);
     Lanes second = is_pair ? hits.maybe & ~hits.first & ~equal_to<N>(omitted_id, second_id) : 0;
     if ((first | second) == 0) return;
-    if (tree_.open_fronts == nullptr) {
+    if (tree_.open_fronts == nullptr && !is_masked(tree_, first_id) &&
+        !is_masked(tree_, second_id)) {
       const Lanes certain = certain_of(hits) & (first | second);
       const Lanes nearer =
           certain & less<N>(hits.t.hi, group.best_lo) & less_equal<N>(group.t_min, hits.t.lo);
@@ -210,13 +211,11 @@ class FewTrianglesWalk {
       const PossibleHit hit{.t = {t_lo[lane], t_hi[lane]},
                             .is_certain = (rays.certain >> lane & 1U) != 0,
                             .has_t = (with_t >> lane & 1U) != 0};
-      const auto fallback = [&](std::uint32_t id, ClosestSoFar& nearest) {
-        slow_.consider(slow_.context, ray, id, nearest);
-      };
+      const StreamRayFallback fallback{slow_, ray};
       if ((rays.unsure >> lane & 1U) != 0)
         fallback(triangle.id, best);
       else
-        consider(block, k, {o, d, stream_.t_min[ray]}, hit, best, fallback);
+        consider(tree_, block, k, {o, d, stream_.t_min[ray]}, hit, best, fallback);
       stream_.best_lo[ray] = best.lo;
       stream_.best_hi[ray] = best.hi;
       stream_.best_id[ray] = best.id;

@@ -26,8 +26,11 @@ struct TreeView {
   const FewTriangles* few = nullptr;
   bool few_are_all = true;
   FewTriangles::Box rest{};  ///< contains what the nodes don't leave out, unless few_are_all
-  /// One bit per primitive, or null. any_of_stream passes through the fronts of these triangles.
+  /// One bit per primitive, or null. Rays of streams pass through the fronts of these triangles.
   const std::uint32_t* open_fronts = nullptr;
+  /// One bit per primitive, or null. Hits of rays of streams with these triangles count only where
+  /// the triangles are visible, see StreamFallback.
+  const std::uint32_t* masked = nullptr;
 };
 
 /// The nearest hit so far, with its exact t in [lo, hi]. Initially lo = hi = t_max and id =
@@ -171,10 +174,16 @@ struct alignas(64) KernelStream {
   float d_sum[kStreamRays];                         ///< as in KernelRay
 };
 
-/// A callback for hits of a stream's rays that float32 can't decide.
+/// Whether a masked triangle is visible where a ray hits it.
+enum class Visible : std::uint8_t { no, yes, unsure };
+
+/// Callbacks for hits of a stream's rays that float32 can't decide.
 struct StreamFallback {
   void* context;
   void (*consider)(void* context, int ray, std::uint32_t id, ClosestSoFar& best);
+  /// Decides for a triangle of TreeView::masked that the ray certainly hits. If the result is
+  /// unsure, consider() decides.
+  Visible (*visible)(void* context, int ray, std::uint32_t id) = nullptr;
 };
 
 inline constexpr std::uint32_t kOtherSlot = 1U << 31U, kIdSlot = ~0U;
@@ -233,11 +242,11 @@ struct Kernels {
   void (*closest_of_packet)(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow);
   /// Sets the members of a stream below the dashed line, without hits.
   void (*prepare_stream)(KernelStream& stream);
-  /// Does what `closest` does for all rays of a prepared stream, except for hits of open_fronts,
-  /// for which `slow` decides if a ray's side is uncertain.
+  /// Does what `closest` does for all rays of a prepared stream, but passes through open_fronts,
+  /// for which `slow` decides if a ray's side is uncertain, and masked triangles that aren't
+  /// visible.
   void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
-  /// Finds any hit within the interval of each ray that has no hit yet, except for hits of
-  /// open_fronts as well.
+  /// Finds any hit within the interval of each ray that has no hit yet, with the same exceptions.
   void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
   /// Fills t with the exact parameters rounded to nearest. Returns the set of hits whose t is
   /// certainly right.

@@ -157,10 +157,7 @@ class OcclusionPacketWalk {
       single.t_begin = stream_.t_begin[at];
       single.omitted_id = stream_.omitted_id[at];
       ClosestSoFar best{stream_.best_lo[at], stream_.best_hi[at], kNoPrimitive};
-      walk<kNodeLanes, true>(
-          tree, single,
-          [&](std::uint32_t id, ClosestSoFar& b) { slow_.consider(slow_.context, at, id, b); },
-          best);
+      walk<kNodeLanes, true>(tree, single, StreamRayFallback{slow_, at}, best);
       if (best.id != kNoPrimitive) close(best.id, std::uint64_t{1} << ray);
     }
   }
@@ -204,7 +201,12 @@ class OcclusionPacketWalk {
         const Interval<F> t = interval(test.height, test.size, test.height_error, test.size_error);
         const Lanes before = less<N>(t.hi, t_max), after = less<N>(t_max, t.lo);
         const Lanes begun = less_equal<N>(load<N>(stream_.t_min + at), t.lo);
-        const Lanes hit = maybe & test.certain & before & begun;
+        Lanes hit = maybe & test.certain & before & begun;
+        if (is_masked(tree_, block.id[k])) {
+          const SeenLanes seen = seen_lanes(block.id[k], at, hit);
+          maybe &= ~seen.hidden;
+          hit = seen.visible;
+        }
         close(block.id[k], std::uint64_t{hit} << i);
         const Lanes open = maybe & ~hit & ~(test.certain & after);
         if (open != 0) decide(block, k, std::uint64_t{open} << i);
@@ -230,6 +232,23 @@ class OcclusionPacketWalk {
     return behind;
   }
 
+  // The lanes in which a masked triangle is visible, and those in which it isn't.
+  struct SeenLanes {
+    Lanes visible, hidden;
+  };
+  // Decides for rays, starting at ray `at`, that certainly hit a masked triangle. The fallback must
+  // decide in lanes that aren't returned.
+  SeenLanes seen_lanes(std::uint32_t id, int at, Lanes rays) const {
+    SeenLanes seen{};
+    for (; rays != 0; rays &= rays - 1) {
+      const Visible visible = slow_.visible(slow_.context, at + first_lane(rays), id);
+      const Lanes lane = rays & (~rays + 1);
+      seen.visible |= visible == Visible::yes ? lane : 0;
+      seen.hidden |= visible == Visible::no ? lane : 0;
+    }
+    return seen;
+  }
+
   // Decides hits that float32 can't decide, mostly of triangles that the rays have just left.
   void decide(const TriangleBlock& block, int k, std::uint64_t rays) {
     std::uint64_t rest = 0;
@@ -253,7 +272,7 @@ class OcclusionPacketWalk {
       const int ray = first_lane(rays), at = first_ + ray;
       ClosestSoFar best{stream_.best_lo[at], stream_.best_hi[at], kNoPrimitive};
       slow_.consider(slow_.context, at, id, best);
-      if (best.id != kNoPrimitive) close(id, std::uint64_t{1} << ray);
+      if (best.id != kNoPrimitive) close(best.id, std::uint64_t{1} << ray);
     }
   }
 

@@ -46,19 +46,15 @@ inline void walk(const TreeView& tree, KernelRay& ray, const Slowly& fallback, C
   }
 }
 
-inline auto fallback_of(const Fallback& slow) {
-  return [&slow](std::uint32_t id, ClosestSoFar& best) { slow.consider(slow.context, id, best); };
-}
-
 template <int N>
 void closest(const TreeView& tree, KernelRay ray, const Fallback& slow, ClosestSoFar& best) {
-  walk<N, false>(tree, ray, fallback_of(slow), best);
+  walk<N, false>(tree, ray, RayFallback{slow}, best);
 }
 
 template <int N>
 bool any(const TreeView& tree, KernelRay ray, const Fallback& slow) {
   ClosestSoFar best{ray.t_max, ray.t_max, kNoPrimitive};
-  walk<N, true>(tree, ray, fallback_of(slow), best);
+  walk<N, true>(tree, ray, RayFallback{slow}, best);
   return best.id != kNoPrimitive;
 }
 

@@ -188,10 +188,8 @@ class StreamWalk {
                                                   : pop<kAny>(flight.stack, flight.best.hi);
   }
 
-  auto fallback(const Flight& flight) const {
-    return [this, &flight](std::uint32_t id, ClosestSoFar& best) {
-      slow_.consider(slow_.context, flight.number, id, best);
-    };
+  [[nodiscard]] StreamRayFallback fallback(const Flight& flight) const {
+    return {slow_, flight.number};
   }
 
   // Sorts the slots in use by the kind of subtree that their rays visit next, and returns the

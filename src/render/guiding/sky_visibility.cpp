@@ -172,7 +172,7 @@ class SkyVisibility::Probe {
     set_rays(key, round);
     const LightBlockers blockers(tracer_, visibility_.shading_, true);
     const RayColumns rays = columns_of(rays_, count_);
-    tracer_.any(rays, blockers.open(), std::span(hits_).first(count_));
+    tracer_.any(rays, {.open_fronts = blockers.open()}, std::span(hits_).first(count_));
     for (std::size_t i = 0; i < count_; ++i) {
       sum_[bins_of_rays_[i]] += light_along(rays, i, blockers);
       ++traced_[bins_of_rays_[i]];

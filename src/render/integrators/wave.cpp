@@ -65,7 +65,7 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
 void Wave::intersect(std::span<const Ray> camera_rays) {
   const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
   if (step_.depth > 1) {
-    tracer_.closest(columns_of(*paths_, count_), nullptr, std::span(hits_).first(count_));
+    tracer_.closest(columns_of(*paths_, count_), {}, std::span(hits_).first(count_));
     if (knows_blocked()) find_blocked();
     return;
   }

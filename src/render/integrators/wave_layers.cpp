@@ -19,9 +19,9 @@ void Wave::find_blocked() {
   const RayColumns rays = columns_of(open_rays_, count);
   const auto blockers = std::span(open_blockers_).first(count);
   if (lighting_->has_surfaces())
-    tracer_.closest(rays, shading_->open_fronts(), blockers);
+    tracer_.closest(rays, {.open_fronts = shading_->open_fronts()}, blockers);
   else
-    tracer_.any(rays, shading_->open_fronts(), blockers);
+    tracer_.any(rays, {.open_fronts = shading_->open_fronts()}, blockers);
   for (std::size_t k = 0; k < count; ++k) blockers_[open_paths_[k]] = open_blockers_[k];
 }
 
