@@ -170,9 +170,9 @@ class SkyVisibility::Probe {
   /// earlier calls.
   void trace(std::uint32_t key, std::uint32_t round) {
     set_rays(key, round);
-    const LightBlockers blockers(tracer_, visibility_.shading_, true);
+    LightBlockers blockers(tracer_, visibility_.shading_, true);
     const RayColumns rays = columns_of(rays_, count_);
-    tracer_.any(rays, {.open_fronts = blockers.open()}, std::span(hits_).first(count_));
+    tracer_.any(rays, blockers.filter(), std::span(hits_).first(count_));
     for (std::size_t i = 0; i < count_; ++i) {
       sum_[bins_of_rays_[i]] += light_along(rays, i, blockers);
       ++traced_[bins_of_rays_[i]];

@@ -48,7 +48,7 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
                                 std::span<Vec3> colors) {
   const bool passes_backs = backfaces == Backfaces::pass;
   std::uint64_t beyond = 0;
-  const LightBlockers blockers(tracer, shading, passes_backs);
+  LightBlockers blockers(tracer, shading, passes_backs);
   const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
     colors[rays.slot[i]] += part * vector_of(rays.light, i);
   };
@@ -66,7 +66,7 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
                       {.table = &media, .here = here}));
   };
   const RayColumns free = columns_of(free_.rays, free_.count);
-  tracer.any(free, {.open_fronts = blockers.open()}, std::span(hits_).first(free_.count));
+  tracer.any(free, blockers.filter(), std::span(hits_).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
     if (hits_[i] == kNoPrimitive)
       add(free_.rays, i, 1);
@@ -74,7 +74,7 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
       add_rest(free_.rays, free, i, std::nullopt);
   }
   const RayColumns aimed = columns_of(aimed_.rays, aimed_.count);
-  tracer.closest(aimed, {.open_fronts = blockers.open()}, std::span(hits_).first(aimed_.count));
+  tracer.closest(aimed, blockers.filter(aimed_.rays.target), std::span(hits_).first(aimed_.count));
   for (std::size_t i = 0; i < aimed_.count; ++i) {
     const PrimitiveId target = aimed_.rays.target[i];
     if (hits_[i] == target)

@@ -65,13 +65,15 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
 void Wave::intersect(std::span<const Ray> camera_rays) {
   const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
   if (step_.depth > 1) {
-    tracer_.closest(columns_of(*paths_, count_), {}, std::span(hits_).first(count_));
+    tracer_.closest(columns_of(*paths_, count_), {.masked = masked()},
+                    std::span(hits_).first(count_));
     if (knows_blocked()) find_blocked();
     return;
   }
   world_->bvh.intersect(camera_rays, std::span(camera_hits_).first(count_));
   for (std::size_t i = 0; i < count_; ++i)
     hits_[i] = camera_hits_[i] ? camera_hits_[i]->id : kNoPrimitive;
+  if (shading_->masked() != nullptr) find_visible();
 }
 
 void Wave::trace(const World& world, const PathOptions& options, std::span<const Ray> rays,

@@ -44,6 +44,10 @@ class Wave {
   void begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids);
   /// Finds the hits of all rays.
   void intersect(std::span<const Ray> camera_rays);
+  /// The triangles that rays other than camera rays pass through in places.
+  [[nodiscard]] MaskedTriangles masked() const;
+  /// Replaces hits of camera rays at transparent points by the next visible hits.
+  void find_visible();
   /// Sets blockers_ for the rays that hit triangles with open backs.
   void find_blocked();
   /// Advances all paths by one bounce.
@@ -128,7 +132,8 @@ class Wave {
   /// True if path i, whose first hit is the front of a surface with an open back, may get light
   /// from behind it.
   [[nodiscard]] bool may_get_light(std::size_t i) const {
-    return !knows_blocked() || blockers_[i] == kNoPrimitive || !shading_->is_opaque(blockers_[i]) ||
+    return !knows_blocked() || blockers_[i] == kNoPrimitive ||
+           !shading_->blocks_unless_transparent(blockers_[i]) ||
            shading_->is_emissive(blockers_[i]);
   }
   /// True if path i has its maximum length.
@@ -170,8 +175,9 @@ class Wave {
   /// The first primitive that blocks the light from behind, or kNoPrimitive. Any primitive if there
   /// are no emissive surfaces.
   std::array<PrimitiveId, kRandomBatch> blockers_;
-  // Working memory of find_blocked().
+  // Working memory of find_visible() and find_blocked().
   RayArrays open_rays_;
+  PathFloats open_t_min_;
   std::array<std::size_t, kRandomBatch> open_paths_;
   std::array<PrimitiveId, kRandomBatch> open_blockers_;
   std::array<Vec3, kRandomBatch> colors_;

@@ -5,6 +5,52 @@
 
 namespace microtrace {
 
+MaskedTriangles Wave::masked() const {
+  return {.triangles = shading_->masked(),
+          .context = shading_,
+          .passes = [](const void* shading, std::size_t, const Ray& ray, PrimitiveId id) {
+            return static_cast<const Shading*>(shading)->is_transparent(ray, id);
+          }};
+}
+
+void Wave::find_visible() {
+  const auto passes = [](const void* self, std::size_t k, const Ray& ray, PrimitiveId id) {
+    const auto& wave = *static_cast<const Wave*>(self);
+    const std::size_t i = wave.open_paths_[k];
+    return wave.shading_->is_transparent_to_camera(
+        ray, id, {.begin = wave.paths_->begin[i], .spread = wave.paths_->spread[i]});
+  };
+  std::size_t count = 0, widened = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (hits_[i] == kNoPrimitive || !shading_->is_masked(hits_[i])) continue;
+    if (i >= widened && shading_->has_textures()) {
+      widened = i / kShadingLanes * kShadingLanes;
+      widen(widened);
+      widened += kShadingLanes;
+    }
+    open_paths_[count] = i;
+    const Ray ray = paths_->ray(i);
+    if (!passes(this, count, ray, hits_[i])) continue;
+    put_vector(open_rays_.o, count, ray.o);
+    put_vector(open_rays_.d, count, ray.d);
+    open_t_min_[count] = ray.t_min;
+    open_rays_.t_max[count] = ray.t_max;
+    open_rays_.left[count++] = kNoPrimitive;
+  }
+  RayColumns rays = columns_of(open_rays_, count);
+  rays.t_min = open_t_min_;
+  const auto visible = std::span(open_blockers_).first(count);
+  tracer_.closest(rays,
+                  {.masked = {.triangles = shading_->masked(), .context = this, .passes = passes}},
+                  visible);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = open_paths_[k];
+    hits_[i] = visible[k];
+    camera_hits_[i].reset();
+    if (visible[k] != kNoPrimitive) camera_hits_[i] = tracer_.hit(paths_->ray(i), visible[k]);
+  }
+}
+
 void Wave::find_blocked() {
   const PathColumns& paths = *paths_;
   std::size_t count = 0;
@@ -18,10 +64,11 @@ void Wave::find_blocked() {
   }
   const RayColumns rays = columns_of(open_rays_, count);
   const auto blockers = std::span(open_blockers_).first(count);
+  const HitFilter filter{.open_fronts = shading_->open_fronts(), .masked = masked()};
   if (lighting_->has_surfaces())
-    tracer_.closest(rays, {.open_fronts = shading_->open_fronts()}, blockers);
+    tracer_.closest(rays, filter, blockers);
   else
-    tracer_.any(rays, {.open_fronts = shading_->open_fronts()}, blockers);
+    tracer_.any(rays, filter, blockers);
   for (std::size_t k = 0; k < count; ++k) blockers_[open_paths_[k]] = open_blockers_[k];
 }
 

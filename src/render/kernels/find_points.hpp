@@ -16,16 +16,23 @@ struct PlanePoints {
 
   template <int width>
   PlanePoints(const HitArrays<width>& hits, int i)
-      : d(widened3<N>(hits.d, i)),
-        a(widened3<N>(hits.corners[0], i)),
-        e1(widened3<N>(hits.corners[1], i) - a),
-        e2(widened3<N>(hits.corners[2], i) - a),
+      : PlanePoints({widened3<N>(hits.o, i), widened3<N>(hits.d, i)},
+                    {widened3<N>(hits.corners[0], i), widened3<N>(hits.corners[1], i),
+                     widened3<N>(hits.corners[2], i)}) {}
+
+  struct Line {
+    V o, d;
+  };
+  PlanePoints(const Line& ray, const V (&corners)[3])
+      : d(ray.d),
+        a(corners[0]),
+        e1(corners[1] - a),
+        e2(corners[2] - a),
         n(cross(e1, e2)),
         square(dot(n, n)),
         slope(dot(n, d)) {
-    const V o = widened3<N>(hits.o, i);
-    t = dot(a - o, n) / slope;
-    p = o + t * d;
+    t = dot(a - ray.o, n) / slope;
+    p = ray.o + t * d;
   }
 
   /// Each term of `slope` has at most six roundings and is at most the product of the three sums.
@@ -34,6 +41,16 @@ struct PlanePoints {
   [[nodiscard]] auto are_sure() const {
     const D terms = magnitudes_sum(e1) * magnitudes_sum(e2) * magnitudes_sum(d);
     return (square > 0) & (magnitude(D(slope)) > 0x1p-24 * terms);
+  }
+
+  /// Returns the barycentric weights of p. `inverse` is 1 / square.
+  [[nodiscard]] V weights(const D& inverse) const {
+    const D zero{};
+    const V from_a = p - a;
+    const D v = larger_of(D(dot(cross(from_a, e2), n) * inverse), zero);
+    const D w = larger_of(D(dot(cross(e1, from_a), n) * inverse), zero);
+    const D u = larger_of(D(1 - v - w), zero), sum = u + v + w;
+    return V{u, v, w} * (1 / sum);
   }
 
   /// Calls put(values, array) for the results that all hits have.
@@ -53,15 +70,10 @@ struct PlanePoints {
 template <int N, int width>
 void intersect_planes(HitArrays<width>& hits, int i) {
   using D = Double<N>;
-  using V = Doubles3<N>;
   const PlanePoints<N> at(hits, i);
   at.put_common([&](const D& x, float* to) { narrowed<N>(x, to + i); }, hits);
-  const D zero{}, inverse = 1 / at.square;
-  const V from_a = at.p - at.a;
-  const D v = larger_of(D(dot(cross(from_a, at.e2), at.n) * inverse), zero);
-  const D w = larger_of(D(dot(cross(at.e1, from_a), at.n) * inverse), zero);
-  const D u = larger_of(D(1 - v - w), zero), sum = u + v + w;
-  narrowed3<N>(V{u, v, w} * (1 / sum), hits.weights, i);
+  const D inverse = 1 / at.square;
+  narrowed3<N>(at.weights(inverse), hits.weights, i);
   const D length = square_root<N>(at.square);
   narrowed3<N>(at.n * (length * inverse), hits.n, i);
   narrowed<N>(length, hits.area + i);

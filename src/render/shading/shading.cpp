@@ -58,9 +58,11 @@ bool has_map(const TextureSlot& slot) {
   return slot.map != nullptr;
 }
 
-bool covers_completely(const TexturedMaterial& look) {
-  return !is_thin_glass(*look.material) && !look.has_open_opaque_parts &&
-         look.material->alpha_mode == AlphaMode::opaque;
+void set_opacity(TexturedMaterial& look) {
+  const AlphaMode mode = look.material->alpha_mode;
+  look.is_opaque_if_visible =
+      !is_thin_glass(*look.material) && !look.has_open_opaque_parts && mode != AlphaMode::blend;
+  look.is_opaque = look.is_opaque_if_visible && mode == AlphaMode::opaque;
 }
 
 bool is_missing_back(const ShadingPoint& point) {
@@ -99,7 +101,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
         (!transmits_diffusely(material) || has_map(look[MaterialTexture::diffuse_transmission]));
     look.is_textured = std::ranges::any_of(look.slots, has_map);
     look.has_back = has_back(material);
-    look.is_opaque = covers_completely(look);
+    set_opacity(look);
     has_textures_ |= look.is_textured;
     // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
     if (look.has_rare_textures() || material.anisotropy || encloses_medium(material)) return;
@@ -125,7 +127,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
         closed[look] = static_cast<std::uint32_t>(looks_.size());
         TexturedMaterial copy = looks_[look];
         copy.has_open_back = copy.has_open_opaque_parts = false;
-        copy.is_opaque = covers_completely(copy);
+        set_opacity(copy);
         looks_.push_back(copy);
       }
       look = *closed[look];
@@ -143,6 +145,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
       flat_triangles_.add_mesh(*entry.mesh, entry.first_id, entry.look, looks_[entry.look]);
   }
   if (has_open_backs_) find_open_fronts();
+  find_masked();
 }
 
 void Shading::find_open_fronts() {

@@ -1,14 +1,11 @@
 #pragma once
 /// Material evaluation at the vertices of paths.
 
-#include "render/bsdf/parameters.hpp"
 #include "render/kernels/kernel.hpp"
-#include "render/media/medium.hpp"
 #include "render/shading/flat_triangles.hpp"
-#include "render/shading/surface_point.hpp"
-#include "render/textures/texture_map.hpp"
-#include "render/textures/textured_lanes.hpp"
-#include "scene/material_textures.hpp"
+#include "render/shading/footprint.hpp"
+#include "render/shading/opacity_maps.hpp"
+#include "render/shading/textured_material.hpp"
 #include "simd/vector_types.hpp"
 
 #include <microtrace/material.hpp>
@@ -25,110 +22,6 @@
 namespace microtrace {
 
 struct HitGroup;
-struct ShadingPoint;
-
-/// A use of a texture by a material.
-struct TextureSlot {
-  const TextureMap* map = nullptr;  ///< null if there is no texture
-  const TextureUse* use = nullptr;
-  float width_scale = 1;  ///< of footprint widths by use->texture_from_uv
-  /// True if its texel address equals that of TexturedMaterial::layout.
-  bool shares_address = false;
-
-  /// The linear texel value; white if there is no texture.
-  [[nodiscard]] Vec4 at(const ShadingPoint& point) const {
-    return map == nullptr ? Vec4(1) : look_up(point);
-  }
-  [[nodiscard]] TexelAddress<1> texel_address(const ShadingPoint& point) const;
-  /// The texel address at a point of the mesh's texture coordinates. `width` is the footprint's
-  /// width in these coordinates.
-  [[nodiscard]] TexelAddress<1> texel_address(const Vec2& uv, float width) const;
-
- private:
-  [[nodiscard]] Vec4 look_up(const ShadingPoint& point) const;
-};
-
-/// The input of a BSDF at a point.
-struct BsdfInput {
-  bsdf::Parameters parameters;
-  bsdf::Layers layers;
-  bsdf::Features features;
-
-  BsdfInput(const bsdf::Parameters& p, const bsdf::Layers& l)
-      : parameters(p), layers(l), features(features_of(p, l)) {}
-};
-
-/// A material with its textures.
-struct TexturedMaterial {
-  /// The textures that most materials have.
-  static constexpr std::array kFrequent = {MaterialTexture::base_color,
-                                           MaterialTexture::metallic_roughness,
-                                           MaterialTexture::normal, MaterialTexture::emissive};
-
-  const Material* material = nullptr;
-  std::array<TextureSlot, static_cast<std::size_t>(MaterialTexture::count)> slots{};
-  /// The slot whose texel address is reused by every slot with shares_address. Often these are all
-  /// slots.
-  TextureSlot layout{};
-  Medium medium{};  ///< the enclosed medium, if encloses_medium()
-  /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
-  bool has_constant_emission = false;
-  bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
-  /// As has_open_back, but only where the textures of all transmission are 0.
-  bool has_open_opaque_parts = false;
-  /// True if constant_but_textures is set, the roughness is not given as glossiness, and the
-  /// material is neither unlit nor emissive, except by a texture.
-  bool is_simple = false;
-  bool is_textured = false;  ///< true if the material has textures
-  /// True if the material has textures or an alpha mode, so that points differ.
-  bool varies = false;
-  bool has_back = false;  ///< has_back(*material)
-  /// True if coverage() is 1 everywhere for rays other than camera rays, and there are no open
-  /// opaque parts.
-  bool is_opaque = false;
-  /// The BSDF's input for white texels, if it depends on nothing but textures of kFrequent with
-  /// texture coordinates of set 0 on meshes without vertex colors.
-  std::optional<BsdfInput> constant_but_textures{};
-  /// The material for kernels. Except for camera rays, emission and alpha are those of
-  /// ShadingPoint::unfiltered().
-  struct KernelSurfaces {
-    TexturedSurface from_camera, from_others;
-  };
-  /// Set if constant_but_textures is set and either the material varies or meshes with it have
-  /// vertex colors.
-  std::shared_ptr<const KernelSurfaces> kernel_surfaces{};
-
-  [[nodiscard]] TextureSlot& operator[](MaterialTexture texture) {
-    return slots[static_cast<std::size_t>(texture)];
-  }
-  [[nodiscard]] const TextureSlot& operator[](MaterialTexture texture) const {
-    return slots[static_cast<std::size_t>(texture)];
-  }
-
-  /// True if a texture is not one of kFrequent, or uses other texture coordinates than set 0.
-  [[nodiscard]] bool has_rare_textures() const;
-  /// Prefetches the texels of all slots with shares_address.
-  void fetch(const TexelAddress<1>& address) const;
-
-  [[nodiscard]] bool is_emissive() const { return microtrace::is_emissive(*material); }
-};
-
-/// A shading point, its material, and the width of its footprint.
-struct ShadingPoint {
-  SurfacePoint at;
-  const TexturedMaterial* look = nullptr;
-  float width = 0;  ///< footprint width in world space
-  /// The texel address that slots share, if it has been computed.
-  std::optional<TexelAddress<1>> texel_address{};
-
-  /// The point with a footprint of width 0.
-  [[nodiscard]] ShadingPoint unfiltered() const { return {.at = at, .look = look}; }
-};
-
-/// True if the back of the material is visible, from behind or from inside its medium.
-[[nodiscard]] inline bool has_back(const Material& m) {
-  return m.double_sided || encloses_medium(m);
-}
 
 class SharedTables;
 class TextureMaps;
@@ -158,9 +51,7 @@ class Shading {
   [[nodiscard]] ShadingPoint point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
                                       float width) const;
 
-  [[nodiscard]] const Material& material(PrimitiveId id) const {
-    return *looks_[entries_[primitives_.object_index(id)].look].material;
-  }
+  [[nodiscard]] const Material& material(PrimitiveId id) const { return *look_of(id).material; }
 
   /// Computes the texel address that textures share at the point, and prefetches the texels.
   static void find_texel_address(ShadingPoint& point);
@@ -195,19 +86,39 @@ class Shading {
     return open_fronts_.empty() ? nullptr : open_fronts_.data();
   }
   /// True if the primitive blocks all light that doesn't arrive through an open back.
-  [[nodiscard]] bool is_opaque(PrimitiveId id) const {
-    return all_cover_ || looks_[entries_[primitives_.object_index(id)].look].is_opaque;
-  }
+  [[nodiscard]] bool is_opaque(PrimitiveId id) const { return all_cover_ || look_of(id).is_opaque; }
   /// True if the primitive may be emissive.
-  [[nodiscard]] bool is_emissive(PrimitiveId id) const {
-    return looks_[entries_[primitives_.object_index(id)].look].is_emissive();
-  }
+  [[nodiscard]] bool is_emissive(PrimitiveId id) const { return look_of(id).is_emissive(); }
   /// True if both primitives are of one object, whose material may be emissive.
   [[nodiscard]] bool is_same_emitter(PrimitiveId a, PrimitiveId b) const {
     return primitives_.object_index(a) == primitives_.object_index(b) && is_emissive(a);
   }
   [[nodiscard]] bool is_open_front(PrimitiveId id) const {
     return (open_fronts_[id / 32] >> id % 32 & 1U) != 0;
+  }
+
+  /// The triangles on which is_transparent() may be true, one bit per primitive; null if there are
+  /// none.
+  [[nodiscard]] const std::uint32_t* masked() const {
+    return masked_.empty() ? nullptr : masked_.data();
+  }
+  [[nodiscard]] bool is_masked(PrimitiveId id) const {
+    return !masked_.empty() && (masked_[id / 32] >> id % 32 & 1U) != 0;
+  }
+  /// True if one of these triangles, which the ray hits, has no opacity there because of its alpha.
+  /// The ray must not be a camera ray.
+  [[nodiscard]] bool is_transparent(const Ray& ray, PrimitiveId id) const;
+  /// True if such a triangle has no opacity for a camera ray with this footprint. The result may
+  /// also be false if that is difficult to decide.
+  [[nodiscard]] bool is_transparent_to_camera(const Ray& ray, PrimitiveId id,
+                                              const Footprint& footprint) const;
+  /// True if the primitive has an opacity of 1 wherever is_transparent() is false, and blocks all
+  /// light there that doesn't arrive through an open back.
+  [[nodiscard]] bool blocks_unless_transparent(PrimitiveId id) const {
+    if (all_cover_) return true;
+    const Entry& entry = entries_[primitives_.object_index(id)];
+    const TexturedMaterial& look = looks_[entry.look];
+    return look.is_opaque || (entry.first_map != kNoMap && look.is_opaque_if_visible);
   }
 
   /// The radiance emitted toward the ray's origin; 0 on the back of one-sided surfaces. Unlit
@@ -233,17 +144,26 @@ class Shading {
   }
 
  private:
+  static constexpr std::size_t kNoMap = ~std::size_t{0};
   struct Entry {
     const Mesh* mesh;
     PrimitiveId first_id;
     std::uint32_t look;
+    std::size_t first_map = kNoMap;  // of the triangles, see OpacityMaps
   };
 
   [[nodiscard]] static bsdf::Parameters parameters(const ShadingPoint& point, int channel,
                                                    const Medium* outside);
   [[nodiscard]] static bsdf::Layers layers(const ShadingPoint& point);
   [[nodiscard]] static Vec4 base_color(const ShadingPoint& point);
+  [[nodiscard]] const TexturedMaterial& look_of(PrimitiveId id) const {
+    return looks_[entries_[primitives_.object_index(id)].look];
+  }
   void find_open_fronts();
+  void find_masked();
+  [[nodiscard]] static bool is_transparent(const ShadingPoint& point);
+  [[nodiscard]] bool look_up_transparent(const Entry& entry, const Ray& ray, PrimitiveId id) const;
+  struct MaskedHit;
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
   /// True if the surface transmits no light at the point, or only diffusely, because it has no
   /// transmission or the transmission texture is 0.
@@ -258,7 +178,8 @@ class Shading {
   std::vector<TexturedMaterial> looks_;
   std::vector<Entry> entries_;  // by object
   FlatTriangles flat_triangles_;
-  std::vector<std::uint32_t> open_fronts_;
+  std::vector<std::uint32_t> open_fronts_, masked_;
+  OpacityMaps opacity_;
   bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false;
 };
 

@@ -29,6 +29,8 @@ struct SurfacePoint {
 
   /// Texture coordinates; (0, 0) if the mesh doesn't have this set.
   [[nodiscard]] Vec2 uv(std::uint32_t set) const { return set == 0 ? first_uv : further_uv(set); }
+  /// Computes first_uv from the barycentrics.
+  void find_first_uv() { first_uv = further_uv(0); }
   /// The interpolated vertex color; white if the mesh has no colors.
   [[nodiscard]] Vec4 color() const;
   /// The interpolated vertex tangent, projected onto the plane perpendicular to ns, with the

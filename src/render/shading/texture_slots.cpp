@@ -20,6 +20,20 @@ Vec4 TextureSlot::look_up(const ShadingPoint& point) const {
                                                            : texel_address(point));
 }
 
+bool TextureSlot::is_magnified(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners,
+                               double part) const {
+  if (map == nullptr) return true;
+  // As in SurfacePoint::uv_scale, set 0 determines the size of footprints.
+  double area = 0;
+  if (!mesh.uv_sets.empty() && !mesh.uv_sets[0].empty()) {
+    const auto uv = [&](std::size_t i) { return DVec2(mesh.uv_sets[0][corners[i]]); };
+    const DVec2 e1 = uv(1) - uv(0), e2 = uv(2) - uv(0);
+    area = std::abs(e1.x * e2.y - e1.y * e2.x);
+  }
+  const double scale = double{width_scale} * std::max(map->image().width, map->image().height);
+  return part * area * scale * scale < 0.99;
+}
+
 TextureSlot TextureMaps::slot(const TextureUse& use, ColorEncoding encoding) {
   const Texture& texture = scene_.textures[use.texture];
   if (!texture.image || !scene_.images[*texture.image]) return {};

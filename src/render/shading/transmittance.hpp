@@ -5,6 +5,7 @@
 
 #include <microtrace/bvh.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -26,18 +27,30 @@ class LightBlockers {
         open_(passes_backs && tracer.knows_fronts() ? shading.open_fronts() : nullptr),
         may_pass_opaque_(passes_backs && shading.has_open_backs() && open_ == nullptr) {}
 
-  /// The triangles whose fronts the queries of a RayTracer must pass through.
-  [[nodiscard]] const std::uint32_t* open() const { return open_; }
+  /// The hits that the queries of a RayTracer must find. Ray i must find its target targets[i] even
+  /// where that is transparent, unless `targets` is null. Valid as long as this object.
+  [[nodiscard]] HitFilter filter(const std::uint32_t* targets = nullptr) {
+    targets_ = targets;
+    return {.open_fronts = open_,
+            .masked = {.triangles = shading_.masked(), .context = this, .passes = passes}};
+  }
   /// True if a ray on which such a query has found this primitive transmits no light, unless the
   /// primitive is the target or a hidden surface. Otherwise, transmittance() decides.
   [[nodiscard]] bool blocks(PrimitiveId id) const {
-    return !may_pass_opaque_ && shading_.is_opaque(id);
+    return !may_pass_opaque_ && shading_.blocks_unless_transparent(id);
   }
 
  private:
+  static bool passes(const void* self, std::size_t i, const Ray& ray, PrimitiveId id) {
+    const auto& blockers = *static_cast<const LightBlockers*>(self);
+    const bool is_target = blockers.targets_ != nullptr && blockers.targets_[i] == id;
+    return !is_target && blockers.shading_.is_transparent(ray, id);
+  }
+
   const Shading& shading_;
   const std::uint32_t* open_;
   bool may_pass_opaque_;  // true if light passes opaque surfaces through which the queries don't
+  const std::uint32_t* targets_ = nullptr;
 };
 
 /// The fraction of light that passes all surfaces on a ray before its t_max or its target; 0 if the

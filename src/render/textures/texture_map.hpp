@@ -66,6 +66,11 @@ class TextureMap {
             .is_wide = is_wide_};
   }
 
+  [[nodiscard]] const Image& image() const { return image_; }
+  [[nodiscard]] const Sampler& sampler() const { return sampler_; }
+  /// The alpha that a sample value of the image stands for.
+  [[nodiscard]] float alpha(std::uint16_t value) const { return alpha_table_[value]; }
+
   static constexpr int kMaxProbes = 8;
 
  private:

@@ -1,0 +1,97 @@
+// Compares paths through surfaces with transparent parts with paths through surfaces that lack
+// these parts.
+
+#include "support/pictures.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+/// How the transparent halves are made.
+enum class Holes : std::uint8_t { absent, masked, blended };
+
+/// A floor under many leaves, whose second halves are missing or transparent, in the light of the
+/// sky, a sun and a lamp.
+Scene leaves(Holes holes, bool double_sided) {
+  Scene scene;
+  scene.images.push_back(std::make_shared<const Image>(
+      Image{.width = 2,
+            .height = 1,
+            .channels = 4,
+            .samples = std::vector<std::uint8_t>{255, 255, 255, 255, 255, 255, 255, 0}}));
+  scene.textures.push_back({.image = 0,
+                            .sampler = {.wrap_s = Wrap::clamp_to_edge,
+                                        .magnification = Filter::nearest,
+                                        .minification = Filter::nearest,
+                                        .mip = MipFilter::none}});
+  Material leaf{.base_color = {0.3F, 0.7F, 0.2F, 1}, .double_sided = double_sided, .roughness = 1};
+  if (holes != Holes::absent) {
+    leaf.base_color_texture = TextureUse{};
+    leaf.alpha_mode = holes == Holes::masked ? AlphaMode::mask : AlphaMode::blend;
+  }
+  scene.materials = {{.base_color = {0.5F, 0.5F, 0.5F, 1}, .roughness = 1},
+                     leaf,
+                     {.base_color = {0, 0, 0, 1}, .emissive = Vec3(20)}};
+  scene.objects.push_back(
+      {.shape = parallelogram({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), .material = 0});
+  scene.objects.push_back(
+      {.shape = parallelogram({-0.5F, 3.5F, -0.5F}, {1, 0, 0}, {0, 0, 1}), .material = 2});
+  std::mt19937 bits(5);
+  const auto number = [&](float lo, float hi) {
+    return lo + (hi - lo) * static_cast<float>(bits() >> 8U) * 0x1p-24F;
+  };
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 corner(number(-2, 2), number(0.3F, 3), number(-2, 2));
+    const Vec3 along(number(-1, 1), number(-0.2F, 0.2F), number(-1, 1));
+    const Vec3 up(number(-1, 1), number(-0.2F, 0.2F), number(-1, 1));
+    Mesh mesh = parallelogram(corner, holes == Holes::absent ? along * 0.5F : along, up);
+    if (holes != Holes::absent) mesh.uv_sets.push_back({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    scene.objects.push_back({.shape = mesh, .material = 1});
+  }
+  scene.environment = Environment{.content = Vec3(0.5F)};
+  scene.lights.push_back({.name = "sun",
+                          .light = DirectionalLight{
+                              .direction = glm::normalize(DVec3(0.2, -1, 0.3)), .intensity = 2}});
+  return scene;
+}
+
+/// The fraction of pixels that differ by more than rounding.
+double differing(const Film& a, const Film& b) {
+  const std::vector<DVec3> x = pixels_of(a), y = pixels_of(b);
+  double count = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    count += std::abs(x[i].y - y[i].y) > 1e-3 * (x[i].y + y[i].y) ? 1 : 0;
+  return count / static_cast<double>(x.size());
+}
+
+TEST(MaskedPaths, PassHolesAsIfTheyWereAbsent) {
+  const PerspectiveCamera camera{.pose = {.position = {0, 5, 4},
+                                          .direction = glm::normalize(DVec3(0, -1, -0.8)),
+                                          .up = {0, 1, 0}}};
+  for (const bool double_sided : {false, true}) {
+    for (const Backfaces backfaces : {Backfaces::pass, Backfaces::occlude}) {
+      const Shot shot{.size = {.width = 48, .height = 48}, .samples = 4, .backfaces = backfaces};
+      const Film expected = shoot(leaves(Holes::absent, double_sided), camera, shot);
+      EXPECT_GT(differing(expected, shoot(leaves(Holes::absent, !double_sided), camera, shot)),
+                0.2);
+      for (const Holes holes : {Holes::masked, Holes::blended}) {
+        const Film film = shoot(leaves(holes, double_sided), camera, shot);
+        EXPECT_LT(differing(expected, film), 0.02)
+            << (double_sided ? "two" : "one") << " sides, "
+            << (holes == Holes::masked ? "masked" : "blended") << ", backfaces "
+            << static_cast<int>(backfaces);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microtrace
