@@ -31,8 +31,9 @@ void put_point(VertexGroup& group, int lane, const ShadingPoint& point) {
   put(hits.ns, lane, at.ns);
   group.side[lane] = at.front ? 1.0F : -1.0F;
   group.width[lane] = point.width;
-  group.on_mesh[lane] = at.mesh != nullptr ? 1 : 0;
-  for (std::size_t corner = 0; corner < 3 && at.mesh != nullptr; ++corner)
+  const bool on_mesh = at.mesh != nullptr && !at.is_edge_on;
+  group.on_mesh[lane] = on_mesh ? 1 : 0;
+  for (std::size_t corner = 0; corner < 3 && on_mesh; ++corner)
     put(hits.corners[corner], lane, at.mesh->position(at.corners[corner]));
 
   const TexturedMaterial& look = *point.look;

@@ -20,7 +20,8 @@ using LaneNumbers = std::uint32_t[kShadingLanes];
 struct alignas(64) VertexGroup {
   HitGroup hits;
   LaneNumbers id;       ///< the primitive
-  LaneNumbers on_mesh;  ///< 1 for triangles of meshes, whose vertices are in hits.lanes.corners
+  LaneNumbers on_mesh;  ///< 1 for triangles of meshes that are not edge-on, whose vertices are in
+                        ///< hits.lanes.corners
   LaneFloats side;      ///< 1 if the ray hits the front, -1 if it hits the back
   LaneFloats width;     ///< footprint width
   // For normal maps; only the lanes with is_mapped are set.

@@ -23,11 +23,18 @@ Value weighed(const std::array<std::uint32_t, 3>& corners, const Vec3& weights,
 }  // namespace
 
 SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hit) {
-  return {.p = Vec3(at.p),
-          .n = Vec3(at.n),
-          .ns = Vec3(at.ns),
-          .front = at.front,
-          .distance = hit.t * std::sqrt(glm::dot(ray.d, ray.d))};
+  SurfacePoint result{.p = Vec3(at.p),
+                      .n = Vec3(at.n),
+                      .ns = Vec3(at.ns),
+                      .front = at.front,
+                      .distance = hit.t * std::sqrt(glm::dot(ray.d, ray.d))};
+  if (!at.triangle || at.triangle->mesh == nullptr) return result;
+  result.mesh = at.triangle->mesh;
+  result.is_edge_on = true;
+  result.corners = at.triangle->corners;
+  result.barycentrics = Vec3(at.triangle->barycentrics);
+  result.find_first_uv();
+  return result;
 }
 
 Vec2 SurfacePoint::further_uv(std::uint32_t set) const {

@@ -16,12 +16,13 @@ namespace microtrace {
 
 /// A point on a surface, in world space. Its bits are the same on every machine.
 struct SurfacePoint {
-  Vec3 p{0};                               ///< the position, rounded
-  Vec3 n{0, 0, 1};                         ///< unit geometric normal of the front side
-  Vec3 ns{0, 0, 1};                        ///< unit shading normal of the front side
-  bool front = true;                       ///< true if the ray arrives at the front side
-  float distance = 0;                      ///< distance from the ray's origin
-  const Mesh* mesh = nullptr;              ///< null if the primitive is not a mesh triangle
+  Vec3 p{0};                   ///< the position, rounded
+  Vec3 n{0, 0, 1};             ///< unit geometric normal of the front side
+  Vec3 ns{0, 0, 1};            ///< unit shading normal of the front side
+  bool front = true;           ///< true if the ray arrives at the front side
+  float distance = 0;          ///< distance from the ray's origin
+  const Mesh* mesh = nullptr;  ///< null if the primitive is not a mesh triangle
+  bool is_edge_on = false;     ///< true for mesh triangles for which find_points() is not sure
   std::array<std::uint32_t, 3> corners{};  ///< vertex indices of the triangle
   Vec3 barycentrics{1, 0, 0};              ///< weights of the vertices
   Vec2 first_uv{0};    ///< texture coordinates of set 0; (0, 0) if the mesh has none
