@@ -48,6 +48,15 @@ inline void for_each_lane(Lanes lanes, const Visit& visit) {
   for (; lanes != 0; lanes &= lanes - 1) visit(__builtin_ctz(lanes));
 }
 
+/// Calls visit(i, part) for each N lanes from i on of which some are wanted; `part` are these.
+template <int N, class Visit>
+inline void for_each_part(Lanes lanes, const Visit& visit) {
+  for (int i = 0; i < kShadingLanes; i += N) {
+    const Lanes part = lanes >> i & kAllLanes<N>;
+    if (part != 0) visit(i, part);
+  }
+}
+
 /// Stores a value in these lanes.
 template <int N>
 inline void store_in(Lanes lanes, const Float<N>& value, float* to) {
@@ -59,10 +68,10 @@ template <int N>
 void read_textures(const TexturedSurface& surface, Lanes lanes, const HitLanes& hits,
                    const LaneFloats& widths, TexturedLanes& to) {
   TexelAddresses addresses[TexturedSurface::kValues];
-  for (int k = 0; k < surface.layout_count; ++k) {
-    for (int i = 0; i < kShadingLanes; i += N)
-      addresses[k].find<N>(surface.layouts[k], hits, widths, i);
-  }
+  for_each_part<N>(lanes, [&](int i, Lanes) {
+    for (int k = 0; k < surface.layout_count; ++k)
+      addresses[k].template find<N>(surface.layouts[k], hits, widths, i);
+  });
   const auto reads = [&](const auto& visit) {
     for (int k = 0; k < surface.read_count; ++k) {
       const TexturedSurface::Read& read = surface.reads[k];
@@ -79,19 +88,20 @@ void read_textures(const TexturedSurface& surface, Lanes lanes, const HitLanes& 
       const FourFloats texel = read_texel(read.texels, at[lane]);
       __builtin_memcpy(rows[lane], &texel, sizeof texel);
     });
-    for (int i = 0; i < kShadingLanes; i += N) {
+    for_each_part<N>(lanes, [&](int i, Lanes part) {
       std::uint32_t indices[N];
       for (int k = 0; k < N; ++k) indices[k] = static_cast<std::uint32_t>(i + k);
       Float<N> columns[4];
       load_rows<N>(rows[0], indices, columns);
-      for (int c = 0; c < 4; ++c) store_in<N>(lanes >> i, columns[c], to.values[read.value][c] + i);
-    }
+      for (int c = 0; c < 4; ++c) store_in<N>(part, columns[c], to.values[read.value][c] + i);
+    });
     found |= Lanes{1} << read.value;
   });
   for (int value = 0; value < TexturedSurface::kValues; ++value) {
     if ((found >> value & 1U) != 0) continue;
-    for (int i = 0; i < kShadingLanes; i += N)
-      for (auto& channel : to.values[value]) store_in<N>(lanes >> i, all<N>(1), channel + i);
+    for_each_part<N>(lanes, [&](int i, Lanes part) {
+      for (auto& channel : to.values[value]) store_in<N>(part, all<N>(1), channel + i);
+    });
   }
 }
 
@@ -103,7 +113,7 @@ void load_textured(const TexturedSurface& surface, Lanes lanes, const HitLanes& 
   using F = Float<N>;
   read_textures<N>(surface, lanes, hits, widths, to);
   to.opaque = 0;
-  for (int i = 0; i < kShadingLanes; i += N) {
+  for_each_part<N>(lanes, [&](int i, Lanes part) {
     const auto value = [&](TexelValue which, int channel) {
       return load<N>(to.values[static_cast<int>(which)][channel] + i);
     };
@@ -116,7 +126,6 @@ void load_textured(const TexturedSurface& surface, Lanes lanes, const HitLanes& 
     color.z = factor(2) * value(TexelValue::base_color, 2);
     const bsdf::BaseSurface<N> base(color, surface, value(TexelValue::metallic_roughness, 1),
                                     value(TexelValue::metallic_roughness, 2));
-    const Lanes part = lanes >> i;
     store_in<N>(part, base.color.x, surfaces.base_color[0] + i);
     store_in<N>(part, base.color.y, surfaces.base_color[1] + i);
     store_in<N>(part, base.color.z, surfaces.base_color[2] + i);
@@ -131,9 +140,8 @@ void load_textured(const TexturedSurface& surface, Lanes lanes, const HitLanes& 
       dark &= less_equal<N>(emission, F{}) & less_equal<N>(F{}, emission);
     }
     const F alpha = factor(3) * value(TexelValue::alpha, 3);
-    to.opaque |= (dark & less_equal<N>(all<N>(surface.covering_alpha), alpha)) << i;
-  }
-  to.opaque &= lanes;
+    to.opaque |= (part & dark & less_equal<N>(all<N>(surface.covering_alpha), alpha)) << i;
+  });
 }
 
 }  // namespace MICROTRACE_KERNELS

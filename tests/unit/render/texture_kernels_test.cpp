@@ -136,9 +136,14 @@ TEST_P(TextureKernelsTest, TexelsHaveTheBitsOfSingleLookups) {
       surface.reads[surface.read_count++] = {
           .texels = use.texture.map().texels(), .layout = surface.layout_count++, .value = value};
     }
-    surface.covering_alpha = random.number();
+    const float kind = random.number();
+    surface.covering_alpha = kind < 0.3F   ? -std::numeric_limits<float>::infinity()
+                             : kind < 0.4F ? 2
+                                           : random.number();
+    surface.normal_scale = random.number();
     for (float& x : surface.base_color) x = 2 * random.number();
-    if (random.bits() % 2 != 0) surface.emission[1] = 1;
+    const auto lit = static_cast<glm::length_t>(random.bits() % 3);
+    if (random.bits() % 2 != 0) surface.emission[lit] = 1;
     HitLanes hits{};
     TexturedLanes textured{};
     LaneFloats widths;
@@ -176,7 +181,8 @@ TEST_P(TextureKernelsTest, TexelsHaveTheBitsOfSingleLookups) {
       }
       expect_bits(surfaces.metallic[i], base.metallic, "metallic");
       expect_bits(surfaces.roughness[i], base.roughness, "roughness");
-      const bool is_dark = surface.emission[1] == 0 || value(TexelValue::emission).y == 0;
+      expect_bits(normals.scale[i], surface.normal_scale, "normal scale");
+      const bool is_dark = surface.emission[lit] == 0 || value(TexelValue::emission)[lit] == 0;
       const bool covers = factor.w * value(TexelValue::alpha).w >= surface.covering_alpha;
       EXPECT_EQ(textured.opaque >> i & 1U, is_dark && covers ? 1U : 0U) << round << ", " << i;
     }
