@@ -383,7 +383,9 @@ bool same(const Tree& a, const Tree& b) {
 }
 
 TEST(Tree, IsTheSameForAnyNumberOfThreads) {
-  Scene scene = scene_with({generated::displaced_sphere(80000), generated::hall(60000), Plane{}});
+  // All but the last triangle are a small part of the scene.
+  Scene scene = scene_with({generated::displaced_sphere(80000), generated::hall(60000), Plane{},
+                            Triangle{{1e6F, 0, 0}, {1e6F, 1, 0}, {1e6F, 0, 1}}});
   for (int i = 0; i < 1000; ++i)
     scene.objects.push_back(
         {.name = "", .shape = Sphere{Vec3(0.01F * static_cast<float>(i)), 0.1F}});

@@ -107,8 +107,7 @@ bool grows_at_most(double growth, const RelativeCost& from, const RelativeCost& 
 
 std::optional<Tree> refitted(const Tree& previous, const References& references,
                              const Primitives& primitives, double max_growth, WorkerPool& pool) {
-  if (previous.nodes.empty() || previous.primitives != references.bounded.size())
-    return std::nullopt;
+  if (previous.nodes.empty() || previous.primitives != references.items.size()) return std::nullopt;
   Tree tree;
   tree.root = previous.root;
   tree.others = previous.others;

@@ -3,7 +3,7 @@
 /// After I. Wald, S. Boulos, P. Shirley, Ray tracing deformable scenes using dynamic bounding
 /// volume hierarchies, 2007, section 3.
 
-#include "accel/build/references/reference.hpp"
+#include "accel/build/references/references.hpp"
 #include "accel/build/tree.hpp"
 #include "accel/build/worker_pool.hpp"
 

@@ -3,7 +3,8 @@
 #include "accel/build/binary/binning.hpp"
 #include "accel/build/instances/instances.hpp"
 #include "accel/build/references/presplit.hpp"
-#include "accel/build/references/reference.hpp"
+#include "accel/build/references/references.hpp"
+#include "accel/build/references/sort.hpp"
 #include "accel/build/refit.hpp"
 #include "accel/build/wide/tree_writer.hpp"
 #include "accel/build/wide/wide_tree.hpp"
@@ -23,12 +24,15 @@ constexpr std::size_t kWorthThreads = 20000;
 
 /// Takes primitives that are tested faster one by one out of a scene with few primitives.
 void take_out_few(build::References& references) {
-  using namespace build;
-  const auto begin = references.bounded.begin(), end = references.bounded.end();
-  const auto others =
-      std::stable_partition(begin, end, [](const Reference& r) { return r.is_triangle(); });
-  for (auto taken = others; taken != end; ++taken) references.unbounded.push_back(taken->id());
-  references.bounded.erase(others, end);
+  build::ReferenceReader reader(references);
+  references.remove_if([&](const build::CodedItem& item) {
+    const PrimitiveId id = item.number();
+    const bool is_other =
+        !references.primitives->triangle(id) || !build::fits_blocks(reader(item).box);
+    if (is_other) references.unbounded.push_back(id);
+    return is_other;
+  });
+  std::ranges::sort(references.unbounded);
 }
 
 /// Reserves memory for the triangles of placed meshes that are not instances.
@@ -51,11 +55,13 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   PageVector<Reference> placed = instances.take_references();
   const MemoryAccount room = room_for_copies(primitives, instances.is_instance());
   References references = gather(primitives, instances.is_instance());
+  WorkerPool pool(references.items.size() + placed.size() < kWorthThreads ? 1 : options.threads);
   Duplicates duplicates;
-  if (!options.keeps_duplicates) duplicates = Duplicates(references, primitives);
-  PageVector<std::uint32_t>().swap(references.hashes);
+  if (!options.keeps_duplicates) {
+    sort(references, pool);
+    duplicates = Duplicates(references);
+  }
   if (primitives.count() <= options.few) take_out_few(references);
-  WorkerPool pool(references.bounded.size() + placed.size() < kWorthThreads ? 1 : options.threads);
   if (const Tree* const previous = options.previous.get();
       previous != nullptr && placed.empty() && previous->instances.empty() &&
       previous->duplicates == duplicates && previous->unbounded == references.unbounded) {
@@ -69,14 +75,13 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   options.previous.reset();
   tree.duplicates = std::move(duplicates);
   tree.unbounded = std::move(references.unbounded);
-  tree.primitives = references.bounded.size();
+  tree.primitives = references.items.size();
   tree.area = references.area;
-  set_points_apart(references.bounded);
-  if (!options.fast) presplit(references.bounded, primitives);
-  references.bounded.insert(references.bounded.end(), placed.begin(), placed.end());
-  PageVector<Reference>().swap(placed);
-  BinaryTree binary = build_binary_tree(std::move(references.bounded), references.triangle_weight,
-                                        options.fast ? kBinsForPreview : kMaxBins, pool);
+  if (!options.fast) presplit(references);
+  references.store(std::move(placed));
+  if (references.cells.empty()) sort(references, pool);
+  BinaryTree binary =
+      build_binary_tree(std::move(references), options.fast ? kBinsForPreview : kMaxBins, pool);
   if (binary.ids.empty()) {
     tree.nodes.push_back(empty_node());
     return tree;

@@ -1,10 +1,10 @@
 #include "accel/build/binary/binary_tree.hpp"
 
 #include "accel/build/binary/binning.hpp"
+#include "accel/build/binary/cells.hpp"
 #include "accel/build/binary/partition.hpp"
 #include "accel/build/wide/collapse.hpp"
 #include "base/mapped_pages.hpp"
-#include "base/release.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,19 +12,26 @@
 namespace microtrace::build {
 namespace {
 
-// Sets of at most this number of references are built by one thread each. It is a constant so that
-// the tree does not depend on the number of threads.
+// Sets of cells with at most this number of references are built by one thread each. It is a
+// constant so that the tree does not depend on the number of threads.
 constexpr std::size_t kSubtreeSize = std::size_t{1} << 14U;
 
+// Sets with at most this number of references are split reference by reference, others cell by
+// cell.
+constexpr std::size_t kFewReferences = 1024;
+
 // Near this depth, sets are halved without evaluating costs, so at most log2(size) more levels
-// follow.
+// follow. Each cell counts as a full one, because cells are halved first.
 constexpr unsigned kDepthLimit = 58;
 
-// A node that is not yet split. Splitting moves its references within their range.
+// A node that is not yet split, with its cells or references. Splitting moves them within their
+// range.
 struct Set {
   BinaryNode* node;
   unsigned depth;
   Box centroids;
+  std::span<Reference> references;
+  bool of_cells;
 };
 
 int bins_for(std::size_t count, int most) {
@@ -33,10 +40,9 @@ int bins_for(std::size_t count, int most) {
 
 class Builder {
  public:
-  Builder(PageVector<Reference> references, std::uint32_t triangle_weight, int bins,
-          WorkerPool& pool)
-      : references_(std::move(references)), max_bins_(bins), pool_(pool) {
-    tree_.ids.resize(references_.size());
+  Builder(Cells cells, std::uint32_t triangle_weight, int bins, WorkerPool& pool)
+      : cells_(std::move(cells)), max_bins_(bins), pool_(pool) {
+    tree_.ids.resize(cells_.size(cells_.all()));
     tree_.triangle_weight = model_.triangle_weight = triangle_weight;
   }
 
@@ -44,16 +50,14 @@ class Builder {
     const std::vector<Set> small = split_until_small();
     tree_.subtrees.resize(small.size());
     std::vector<CollapseCosts> costs(small.size());
-    Release<Reference> release(references_);
     pool_.run(small.size(), [&](std::size_t i) {
-      const BinaryNode& node = *small[i].node;
-      tree_.subtrees[i].begin = node.begin;
-      PageVector<std::byte> scratch(kSubtreeSize * sizeof(Reference));
-      Subtree subtree{.scratch = reinterpret_cast<Reference*>(scratch.data()),
-                      .arena = tree_.subtrees[i].nodes,
-                      .bins = {}};
+      tree_.subtrees[i].begin = small[i].node->begin;
+      Subtree subtree{
+          .references = PageVector<Reference>(kFewReferences),
+          .scratch = PageVector<Reference>(std::max(kFewReferences, small[i].references.size())),
+          .arena = tree_.subtrees[i].nodes,
+          .bins = {}};
       costs[i] = build_alone(small[i], subtree);
-      release(node.begin, node.count());
     });
     auto next = costs.cbegin();
     plan_top(tree_.root, next);
@@ -65,20 +69,16 @@ class Builder {
 
   /// What a thread needs to build a subtree alone.
   struct Subtree {
-    Reference* scratch;
+    PageVector<Reference> references, scratch;
     NodeArena& arena;
     Bins bins;
   };
-
-  [[nodiscard]] std::span<Reference> of(const Set& set) {
-    return std::span(references_).subspan(set.node->begin, set.node->count());
-  }
 
   /// Splits the whole until each set is small enough for one thread.
   std::vector<Set> split_until_small() {
     std::vector<Set> open{whole()}, small;
     // Reused, because clearing new pages takes time.
-    PageVector<std::uint16_t> scratch(references_.size() > kSubtreeSize ? references_.size() : 0);
+    PageVector<std::uint16_t> scratch(open[0].references.size());
     model_.area = AreaMeasure(tree_.root.box);
     while (!open.empty()) {
       const Set set = open.back();
@@ -94,66 +94,91 @@ class Builder {
     return small;
   }
 
-  // Computes a set's boxes, count and weight.
-  static void summarize(std::span<const Reference> references, Set& set) {
+  // Recomputes a set's boxes and weight.
+  static void summarize(Set& set) {
     Box box;
     std::uint32_t weight = 0;
     set.centroids = {};
-    for (const Reference& r : references) {
+    for (const Reference& r : set.references) {
       box.include(r.box);
       set.centroids.include(centroid(r.box));
       weight += r.weight();
     }
-    set.node->set(box, static_cast<std::uint32_t>(references.size()), weight);
+    set.node->set(box, set.node->count(), weight);
   }
 
   Set whole() {
-    Set set{.node = &tree_.root, .depth = 0, .centroids = {}};
-    summarize(references_, set);
+    tree_.root.set({}, static_cast<std::uint32_t>(tree_.ids.size()), 0);
+    Set set{.node = &tree_.root,
+            .depth = 0,
+            .centroids = {},
+            .references = cells_.all(),
+            .of_cells = true};
+    summarize(set);
     return set;
   }
 
-  // Creates the nodes of the two parts and sets all data that the split provides.
-  static Halves halves(const Set& set, NodeArena& arena, const Split& split) {
+  // Creates the nodes of the two parts, of which the left one has `count` cells or references. Sets
+  // neither their boxes nor their weights.
+  Halves halves(const Set& set, NodeArena& arena, std::size_t count) const {
     BinaryNode* pair = set.node->children = arena.allocate_pair();
-    pair[0].set(split.left, split.left_load.count, split.left_load.weight);
+    const std::span<Reference> left = set.references.first(count);
+    const std::uint32_t left_count =
+        set.of_cells ? cells_.size(left) : static_cast<std::uint32_t>(count);
     pair[0].begin = set.node->begin;
-    pair[1].set(split.right, split.right_load.count, split.right_load.weight);
-    pair[1].begin = set.node->begin + split.left_load.count;
-    return {Set{.node = pair, .depth = set.depth + 1, .centroids = {}},
-            Set{.node = pair + 1, .depth = set.depth + 1, .centroids = {}}};
+    pair[0].set({}, left_count, 0);
+    pair[1].begin = set.node->begin + left_count;
+    pair[1].set({}, set.node->count() - left_count, 0);
+    Set half = set;
+    ++half.depth;
+    Halves sets{half, half};
+    for (std::size_t i = 0; i < 2; ++i) sets[i].node = pair + i;
+    sets[0].references = left;
+    sets[1].references = set.references.subspan(count);
+    return sets;
   }
 
   // Splits a set into two halves of equal count, for sets whose centroids no plane separates or
   // whose depth is near the limit.
   Halves halve(const Set& set, NodeArena& arena) {
-    Split split;
-    split.left_load.count = set.node->count() / 2;
-    split.right_load.count = set.node->count() - split.left_load.count;
-    Halves sets = halves(set, arena, split);
-    for (Set& half : sets) summarize(of(half), half);
+    Halves sets = halves(set, arena, set.references.size() / 2);
+    for (Set& half : sets) summarize(half);
+    return sets;
+  }
+
+  // Creates the parts of a set whose references have moved.
+  Halves halves(const Set& set, NodeArena& arena, const Split& split,
+                const CentroidBoxes& centroids) const {
+    Halves sets = halves(set, arena, split.left_load.count);
+    sets[0].node->set(split.left, sets[0].node->count(), split.left_load.weight);
+    sets[0].centroids = centroids.left;
+    sets[1].node->set(split.right, sets[1].node->count(), split.right_load.weight);
+    sets[1].centroids = centroids.right;
     return sets;
   }
 
   [[nodiscard]] static bool is_deep(const Set& set) {
-    return set.depth + static_cast<unsigned>(std::bit_width(set.node->count())) >= kDepthLimit;
+    const std::size_t most = set.references.size() * (set.of_cells ? kCellSize : 1);
+    return set.depth + static_cast<unsigned>(std::bit_width(most)) >= kDepthLimit;
   }
 
   Halves split_alone(const Set& set, Subtree& subtree) {
-    auto& [scratch, arena, bins] = subtree;
-    const BinMapping mapping(set.centroids, bins_for(set.node->count(), max_bins_));
-    if (is_deep(set) || mapping.is_degenerate()) return halve(set, arena);
+    Bins& bins = subtree.bins;
+    const BinMapping mapping(set.centroids, bins_for(set.references.size(), max_bins_));
+    if (is_deep(set) || mapping.is_degenerate()) return halve(set, subtree.arena);
     bins.clear(mapping.bins());
-    bins.add(of(set), mapping);
+    bins.add(set.references, mapping);
     const Split split = bins.best_split(mapping.bins(), AreaMeasure(set.node->box));
-    if (!split.exists()) return halve(set, arena);
-    return with_centroids(halves(set, arena, split), partition(of(set), mapping, split, scratch));
+    if (!split.exists()) return halve(set, subtree.arena);
+    const CentroidBoxes centroids =
+        partition(set.references, mapping, split, subtree.scratch.data());
+    return halves(set, subtree.arena, split, centroids);
   }
 
   Halves split_together(const Set& set, std::span<std::uint16_t> scratch) {
     const BinMapping mapping(set.centroids, max_bins_);
     if (is_deep(set) || mapping.is_degenerate()) return halve(set, tree_.top);
-    const Chunks<Reference> chunks(of(set));
+    const Chunks<Reference> chunks(set.references);
     std::vector<Bins> bins(chunks.size());
     pool_.run(bins.size(), [&](std::size_t i) {
       bins[i].clear(mapping.bins());
@@ -162,30 +187,37 @@ class Builder {
     for (std::size_t i = 1; i < bins.size(); ++i) bins[0].add(bins[i], mapping.bins());
     const Split split = bins[0].best_split(mapping.bins(), AreaMeasure(set.node->box));
     if (!split.exists()) return halve(set, tree_.top);
-    return with_centroids(
-        halves(set, tree_.top, split),
-        partition_together(of(set), mapping, split, scratch.first(set.node->count()), pool_));
-  }
-
-  static Halves with_centroids(Halves sets, const CentroidBoxes& centroids) {
-    sets[0].centroids = centroids.left;
-    sets[1].centroids = centroids.right;
-    return sets;
+    const CentroidBoxes centroids = partition_together(set.references, mapping, split,
+                                                       scratch.first(set.references.size()), pool_);
+    return halves(set, tree_.top, split, centroids);
   }
 
   // Builds and plans a subtree recursively. The recursion is at most a few levels deeper than
   // kDepthLimit.
   CollapseCosts build_alone(const Set& set, Subtree& subtree) {
+    if (set.of_cells && set.node->count() <= kFewReferences)
+      return build_alone(of_references(set, subtree), subtree);
     BinaryNode& node = *set.node;
     const bool is_block = has_triangles(node, tree_.triangle_weight) && blocks(node.weight()) == 1;
     if (is_block || node.count() <= 1) {
-      const auto leaf = of(set);
-      for (std::size_t i = 0; i < leaf.size(); ++i) tree_.ids[node.begin + i] = leaf[i].id();
+      for (std::size_t i = 0; i < set.references.size(); ++i)
+        tree_.ids[node.begin + i] = set.references[i].id();
       return costs_of_leaf(node, model_);
     }
     const Halves sets = split_alone(set, subtree);
     const CollapseCosts left = build_alone(sets[0], subtree);
     return plan_collapse(node, model_, left, build_alone(sets[1], subtree));
+  }
+
+  // Replaces a set's cells by their references.
+  Set of_references(const Set& of_cells, Subtree& subtree) {
+    Set set = of_cells;
+    set.of_cells = false;
+    set.references = std::span(subtree.references).first(set.node->count());
+    cells_.copy(of_cells.references, set.references.data());
+    set.centroids = {};
+    for (const Reference& r : set.references) set.centroids.include(centroid(r.box));
+    return set;
   }
 
   // Plans the nodes above the subtrees, whose costs `next` yields from left to right.
@@ -195,7 +227,7 @@ class Builder {
     return plan_collapse(node, model_, left, plan_top(node.children[1], next));
   }
 
-  PageVector<Reference> references_;
+  Cells cells_;
   BinaryTree tree_;
   CollapseModel model_;
   int max_bins_;
@@ -220,9 +252,9 @@ void NodeArena::Unmap::operator()(BinaryNode* chunk) const {
   unmap_pages(chunk, kChunk * sizeof(BinaryNode));
 }
 
-BinaryTree build_binary_tree(PageVector<Reference> references, std::uint32_t triangle_weight,
-                             int bins, WorkerPool& pool) {
-  return Builder(std::move(references), triangle_weight, bins, pool).build();
+BinaryTree build_binary_tree(References references, int bins, WorkerPool& pool) {
+  const std::uint32_t triangle_weight = references.triangle_weight;
+  return Builder(Cells(std::move(references), pool), triangle_weight, bins, pool).build();
 }
 
 }  // namespace microtrace::build

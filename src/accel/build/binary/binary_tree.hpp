@@ -1,7 +1,7 @@
 #pragma once
 /// The binary tree that is later collapsed to nodes with up to eight children.
 
-#include "accel/build/references/reference.hpp"
+#include "accel/build/references/references.hpp"
 #include "accel/build/worker_pool.hpp"
 
 #include <array>
@@ -94,10 +94,8 @@ struct BinaryTree {
 };
 
 /// Splits the references until each leaf holds one kind of primitive and at most eight triangles or
-/// one other primitive, and plans the collapse of all nodes. The result depends only on the
-/// references and their order. `bins` is at most kMaxBins.
-[[nodiscard]] BinaryTree build_binary_tree(PageVector<Reference> references,
-                                           std::uint32_t triangle_weight, int bins,
-                                           WorkerPool& pool);
+/// one other primitive, and plans the collapse of all nodes. The references are sorted. The
+/// result depends only on the references and their order. `bins` is at most kMaxBins.
+[[nodiscard]] BinaryTree build_binary_tree(References references, int bins, WorkerPool& pool);
 
 }  // namespace microtrace::build

@@ -13,12 +13,6 @@ namespace microtrace::build {
 
 inline constexpr int kMaxBins = 32;
 
-/// Returns half of a box's centroid, which orders boxes like their centroids and always stays
-/// finite.
-[[nodiscard]] inline Float4 centroid(const Box& b) {
-  return xyz(b.lo) * splat(0.25F) + xyz(b.hi) * splat(0.25F);
-}
-
 /// Maps a reference to its bin along each axis.
 class BinMapping {
  public:

@@ -2,32 +2,15 @@
 /// Moves the references of a set to the two parts of a split.
 
 #include "accel/build/binary/binning.hpp"
+#include "accel/build/chunks.hpp"
 #include "accel/build/references/reference.hpp"
 #include "accel/build/worker_pool.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace microtrace::build {
-
-/// An array, divided for tasks of several threads. The division is the same for any number of
-/// threads.
-template <class T>
-class Chunks {
- public:
-  static constexpr std::size_t kSize = std::size_t{1} << 13U;
-
-  explicit Chunks(std::span<T> all) : all_(all) {}
-  [[nodiscard]] std::size_t size() const { return (all_.size() + kSize - 1) / kSize; }
-  [[nodiscard]] std::span<T> operator[](std::size_t i) const {
-    return all_.subspan(i * kSize, std::min(kSize, all_.size() - i * kSize));
-  }
-
- private:
-  std::span<T> all_;
-};
 
 /// The boxes of the centroids of both parts.
 struct CentroidBoxes {

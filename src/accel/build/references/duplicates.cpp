@@ -10,8 +10,6 @@
 namespace microtrace {
 namespace {
 
-using build::Reference;
-
 using Corner = std::array<std::uint32_t, 3>;
 
 /// A triangle's vertices in ascending order of their bits. If only two of them are distinct, the
@@ -29,83 +27,57 @@ Corners corners_of(const Triangle& t) {
   return corners;
 }
 
-/// A set of hashes whose contains() may be true for a hash that was not inserted. After B. Bloom,
-/// Space/time trade-offs in hash coding with allowable errors, 1970, with one bit per hash.
-class BloomFilter {
- public:
-  /// Chooses the size so that contains() is wrong for at most about one in sixteen hashes outside
-  /// the set.
-  explicit BloomFilter(std::size_t hashes)
-      : shift_(std::max(0, std::countl_zero(16 * hashes | 64) - 32)),
-        words_((~std::uint32_t{0} >> shift_) / 64 + 1, 0) {}
+// Hashes three numbers with the multipliers and shifts of SplitMix64 (Steele, Lea, Flood: Fast
+// splittable pseudorandom number generators, 2014).
+std::uint64_t hash_of(const Vec3& p) {
+  const auto [x, y, z] = std::bit_cast<Corner>(p + 0.0F);  // -0 becomes 0
+  const std::uint64_t xy = (std::uint64_t{x} << 32U | y) * 0xBF58476D1CE4E5B9U;
+  const std::uint64_t hash = ((xy ^ xy >> 27U) + z) * 0x94D049BB133111EBU;
+  return hash ^ hash >> 31U;
+}
 
-  [[nodiscard]] bool contains(std::uint32_t hash) const {
-    const std::uint32_t bit = hash >> shift_;
-    return (words_[bit / 64] >> (bit % 64) & 1U) != 0;
-  }
-  void insert(std::uint32_t hash) {
-    const std::uint32_t bit = hash >> shift_;
-    words_[bit / 64] |= std::uint64_t{1} << (bit % 64);
-  }
+// Hashes the set of vertices, independent of their order.
+std::uint64_t hash_of(const Triangle& t) {
+  std::uint64_t sum = hash_of(t.a);
+  if (t.b != t.a) sum += hash_of(t.b);
+  if (t.c != t.a && t.c != t.b) sum += hash_of(t.c);
+  return sum;
+}
 
- private:
-  int shift_;
-  PageVector<std::uint64_t> words_;
-};
-
-/// Returns the ascending indices of all hashes that occur more than once, and of a few others. This
-/// is much faster than sorting, because nearly all hashes are unique.
-std::vector<std::uint32_t> repeated(const PageVector<std::uint32_t>& hashes) {
-  BloomFilter once(hashes.size());
-  std::vector<std::uint32_t> again;
-  for (const std::uint32_t hash : hashes) {
-    if (once.contains(hash)) again.push_back(hash);
-    once.insert(hash);
+// Calls f(begin, end) for each range of several items with the same code, which duplicates have.
+template <class F>
+void for_each_range_of_a_code(const PageVector<build::CodedItem>& items, const F& f) {
+  for (std::size_t begin = 0; begin < items.size();) {
+    std::size_t end = begin + 1;
+    while (end < items.size() && items[end].code() == items[begin].code()) ++end;
+    if (end - begin > 1) f(begin, end);
+    begin = end;
   }
-  std::vector<std::uint32_t> slots;
-  if (again.empty()) return slots;
-  BloomFilter twice(again.size());
-  for (const std::uint32_t hash : again) twice.insert(hash);
-  for (std::size_t i = 0; i < hashes.size(); ++i) {
-    if (twice.contains(hashes[i])) slots.push_back(static_cast<std::uint32_t>(i));
-  }
-  return slots;
 }
 
 }  // namespace
 
-Duplicates::Duplicates(build::References& from, const Primitives& primitives) {
-  PageVector<Reference>& references = from.bounded;
-  struct Entry {
-    std::uint32_t hash;
-    PrimitiveId id;
-    std::uint32_t slot;
-  };
+Duplicates::Duplicates(build::References& references) {
   std::vector<Entry> entries;
-  for (const std::uint32_t slot : repeated(from.hashes)) {
-    if (primitives.triangle(references[slot].id()))
-      entries.push_back({.hash = from.hashes[slot], .id = references[slot].id(), .slot = slot});
-  }
-  std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
-    return std::tie(a.hash, a.id) < std::tie(b.hash, b.id);
-  });
-  std::vector<bool> is_duplicate(references.size());
-  for (std::size_t i = 0; i < entries.size();) {
-    std::size_t end = i + 1;
-    while (end < entries.size() && entries[end].hash == entries[i].hash) ++end;
-    if (end - i > 1) {
-      const Corners corners = corners_of(*primitives.triangle(entries[i].id));
-      const std::size_t first = ids_.size();
-      for (std::size_t k = i + 1; k < end; ++k) {
-        if (corners_of(*primitives.triangle(entries[k].id)) != corners) continue;
-        ids_.push_back(entries[k].id);
-        is_duplicate[entries[k].slot] = true;
-      }
-      if (ids_.size() > first)
-        groups_.push_back({.least = entries[i].id, .first = first, .end = ids_.size()});
+  build::ShapeReader shapes(*references.primitives);
+  for_each_range_of_a_code(references.items, [&](std::size_t begin, std::size_t end) {
+    entries.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      const PrimitiveId id = references.items[i].number();
+      if (const auto triangle = shapes.triangle(id))
+        entries.push_back({.hash = hash_of(*triangle), .id = id});
     }
-    i = end;
-  }
+    std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
+      return std::tie(a.hash, a.id) < std::tie(b.hash, b.id);
+    });
+    for (std::size_t first = 0; first < entries.size();) {
+      std::size_t last = first + 1;
+      while (last < entries.size() && entries[last].hash == entries[first].hash) ++last;
+      if (last - first > 1)
+        add_group(std::span(entries).subspan(first, last - first), *references.primitives);
+      first = last;
+    }
+  });
   if (ids_.empty()) return;
   std::ranges::sort(groups_, {}, &Group::least);
   representatives_.resize(std::size_t{*std::ranges::max_element(ids_)} + 1);
@@ -113,11 +85,19 @@ Duplicates::Duplicates(build::References& from, const Primitives& primitives) {
   for (const Group& group : groups_) {
     for (std::size_t i = group.first; i < group.end; ++i) representatives_[ids_[i]] = group.least;
   }
-  std::size_t left = 0;
-  for (std::size_t i = 0; i < references.size(); ++i) {
-    if (!is_duplicate[i]) references[left++] = references[i];
+  const auto is_removed = [this](PrimitiveId id) { return representative(id) != id; };
+  references.remove_if([&](const build::CodedItem& item) { return is_removed(item.number()); });
+  std::erase_if(references.large, is_removed);
+}
+
+void Duplicates::add_group(std::span<const Entry> entries, const Primitives& primitives) {
+  const Corners corners = corners_of(*primitives.triangle(entries[0].id));
+  const std::size_t first = ids_.size();
+  for (const Entry& entry : entries.subspan(1)) {
+    if (corners_of(*primitives.triangle(entry.id)) == corners) ids_.push_back(entry.id);
   }
-  references.resize(left);
+  if (ids_.size() > first)
+    groups_.push_back({.least = entries[0].id, .first = first, .end = ids_.size()});
 }
 
 std::optional<PrimitiveId> Duplicates::above(PrimitiveId id, PrimitiveId after) const {

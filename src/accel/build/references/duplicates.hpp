@@ -3,12 +3,11 @@
 /// tree. Otherwise a ray through a thousand coincident copies of a mesh would hit a thousand
 /// triangles at the same t, and exact arithmetic would have to decide every tie.
 
-#include "accel/build/references/reference.hpp"
-
-#include <microtrace/primitives.hpp>
+#include "accel/build/references/references.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace microtrace {
@@ -18,8 +17,9 @@ class Duplicates {
   Duplicates() = default;
 
   /// Groups triangles that have the same vertices in any order. Removes all but the one with the
-  /// lowest id of each group from the bounded references.
-  Duplicates(build::References& references, const Primitives& primitives);
+  /// lowest id of each group from the items of the references, which must be sorted and of whole
+  /// primitives.
+  explicit Duplicates(build::References& references);
 
   /// Returns the lowest id above `after` in the group of primitive `id`, which must be in the tree.
   [[nodiscard]] std::optional<PrimitiveId> above(PrimitiveId id, PrimitiveId after) const;
@@ -46,6 +46,13 @@ class Duplicates {
     PrimitiveId least;
     std::size_t first, end;  // range of indices into ids_, where the group's removed ids ascend
   };
+  struct Entry {
+    std::uint64_t hash;  // of the set of vertices
+    PrimitiveId id;
+  };
+
+  // Adds the group of the first entry, of several with the same hash and ascending ids.
+  void add_group(std::span<const Entry> entries, const Primitives& primitives);
 
   std::vector<PrimitiveId> ids_;              // removed primitives, group by group
   std::vector<Group> groups_;                 // in ascending order of `least`

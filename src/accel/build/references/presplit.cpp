@@ -15,11 +15,10 @@ namespace {
 // The constants were found by experiment. They affect speed, but never results.
 //
 // A triangle is split if the useless area of its box, halved once per Grid::level, exceeds a limit:
-// kManyShares times the area of the whole scene's box, divided by the number of primitives. The
+// kLeastSplit times the area of the whole scene's box, divided by the number of primitives. The
 // number of splits is kCutsAtLeast times the fourth root of the ratio of this area to the limit,
 // rounded down. The paper uses the cube root; the fourth root is slightly better and doesn't depend
 // on the C library.
-constexpr float kManyShares = 8;
 constexpr float kCutsAtLeast = 1.5F;
 
 // The useless area is the part of the box's area that exceeds kUseful times the total area of the
@@ -81,48 +80,51 @@ class Grid {
 };
 
 struct Candidate {
-  std::size_t slot;
+  PrimitiveId id;
   float priority;
 };
 
 class Splitter {
  public:
-  Splitter(PageVector<Reference>& references, const Primitives& primitives, const Box& whole)
-      : references_(references), primitives_(primitives), grid_(whole), area_(whole) {
-    least_ = area_(whole) * kManyShares / static_cast<float>(references.size());
+  explicit Splitter(References& references)
+      : references_(references), reader_(references), grid_(references.box), area_(references.box) {
+    least_ = area_(references.box) * kLeastSplit / static_cast<float>(references.items.size());
   }
 
   void split_all() {
     if (!(least_ > 0)) return;  // the scene is a single point
-    for (std::size_t i = 0; i < references_.size(); ++i) consider(i);
+    for (const PrimitiveId id : references_.large) consider(id);
     if (candidates_.empty()) return;
     const float most = kCutsAtLeast / fourth_root(least_), scale = within_budget(most);
+    std::vector<bool> is_split(std::size_t{candidates_.back().id} + 1);
+    pieces_.reserve(pieces(scale) + candidates_.size());
     for (const Candidate& c : candidates_) {
-      const Triangle t = triangle(references_[c.slot].id());
-      split(t, c.slot, static_cast<std::size_t>(scale * c.priority));
+      const auto times = static_cast<std::size_t>(scale * c.priority);
+      if (times == 0) continue;
+      is_split[c.id] = true;
+      split(triangle(c.id), reader_.of_primitive(c.id), times);
     }
+    references_.remove_if([&](const CodedItem& item) {
+      return item.number() < is_split.size() && is_split[item.number()];
+    });
+    references_.store(std::move(pieces_));
   }
 
  private:
-  Triangle triangle(PrimitiveId id) const {
-    Triangle triangle;
-    primitives_.visit(id, [&](const auto& shape) {
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Triangle>)
-        triangle = shape;
-    });
-    return triangle;
+  [[nodiscard]] Triangle triangle(PrimitiveId id) const {
+    return *references_.primitives->triangle(id);
   }
 
-  void consider(std::size_t slot) {
-    const Reference& r = references_[slot];
+  void consider(PrimitiveId id) {
+    const Reference r = reader_.of_primitive(id);
     if (!r.is_triangle()) return;
     const float importance = std::ldexp(1.0F, -grid_.level(r.box));
     const float size = area_(r.box);
     if (size * importance < least_) return;
-    const Triangle t = triangle(r.id());
+    const Triangle t = triangle(id);
     const float waste = size - kUseful * area_.of_triangle(t.a, t.b, t.c);
     if (waste * importance >= least_)
-      candidates_.push_back({.slot = slot, .priority = fourth_root(waste * importance)});
+      candidates_.push_back({.id = id, .priority = fourth_root(waste * importance)});
   }
 
   std::size_t pieces(float scale) const {
@@ -133,7 +135,7 @@ class Splitter {
 
   // Returns the largest scale up to `most` for which the number of pieces is within the budget.
   float within_budget(float most) const {
-    const std::size_t budget = most_pieces(references_.size());
+    const std::size_t budget = most_pieces(references_.items.size());
     if (pieces(most) <= budget) return most;
     float low = 0, high = most;
     for (int i = 0; i < 20; ++i) {
@@ -143,31 +145,30 @@ class Splitter {
     return low;
   }
 
-  // Splits a triangle `times` times. The larger part gets more of the remaining splits.
-  void split(const Triangle& t, std::size_t slot, std::size_t times) {
-    if (times == 0) return;
-    const Reference whole = references_[slot];
+  // Splits a part of a triangle `times` times. The larger half gets more of the remaining splits.
+  void split(const Triangle& t, const Reference& whole, std::size_t times) {
     const int axis = longest_axis(whole.box);
     const float plane = grid_.plane(whole.box, axis);
-    if (!(plane > whole.box.lo[axis] && plane < whole.box.hi[axis])) return;
+    if (times == 0 || !(plane > whole.box.lo[axis] && plane < whole.box.hi[axis])) {
+      pieces_.push_back(whole);
+      return;
+    }
     const auto [left, right] = cut(t, whole.box, axis, plane);
-    references_[slot] = Reference(left, whole.id(), whole.weight());
-    const std::size_t added = references_.size();
-    references_.push_back(Reference(right, whole.id(), whole.weight()));
     const float a = half_extent(left)[longest_axis(left)],
                 b = half_extent(right)[longest_axis(right)];
     const auto to_left =
         static_cast<std::size_t>(std::floor(static_cast<float>(times - 1) * (a / (a + b)) + 0.5F));
-    split(t, slot, to_left);
-    split(t, added, times - 1 - to_left);
+    split(t, Reference(left, whole.id(), whole.weight()), to_left);
+    split(t, Reference(right, whole.id(), whole.weight()), times - 1 - to_left);
   }
 
-  PageVector<Reference>& references_;
-  const Primitives& primitives_;
+  References& references_;
+  ReferenceReader reader_;
   Grid grid_;
   AreaMeasure area_;
   float least_;
   std::vector<Candidate> candidates_;
+  PageVector<Reference> pieces_;
 };
 
 }  // namespace
@@ -195,10 +196,8 @@ std::array<Box, 2> cut(const Triangle& t, const Box& box, int axis, float plane)
   return parts;
 }
 
-void presplit(PageVector<Reference>& references, const Primitives& primitives) {
-  Box whole;
-  for (const Reference& r : references) whole.include(r.box);
-  Splitter(references, primitives, whole).split_all();
+void presplit(References& references) {
+  Splitter(references).split_all();
 }
 
 }  // namespace microtrace::build

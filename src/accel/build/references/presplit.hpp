@@ -3,22 +3,25 @@
 /// triangle gets several references, each with the box of one piece. After T. Karras, T. Aila, Fast
 /// parallel construction of high-quality bounding volume hierarchies, 2013, section 6.
 
-#include "accel/build/references/reference.hpp"
+#include "accel/build/references/references.hpp"
 
 #include <array>
 #include <cstddef>
 
 namespace microtrace::build {
 
-/// Maximum number of references that presplit() adds to `count` references.
+/// Maximum number of items that presplit() adds to `count` items.
 [[nodiscard]] constexpr std::size_t most_pieces(std::size_t count) {
   return count * 3 / 10;
 }
 
-/// Appends references to pieces and shrinks the boxes of the original references. Adds none if all
-/// triangles have about the same size. The boxes of a triangle's pieces together contain every
-/// point of the triangle.
-void presplit(PageVector<Reference>& references, const Primitives& primitives);
+/// A triangle is large enough to be split if the area of its box is at least this multiple of the
+/// mean area that a primitive has of the area of the whole scene's box.
+inline constexpr float kLeastSplit = 8;
+
+/// Replaces triangles by references to their pieces. Splits none if all triangles have about the
+/// same size. The boxes of a triangle's pieces together contain every point of the triangle.
+void presplit(References& references);
 
 /// Cuts the part of a triangle within `box` by an axis-aligned plane. Returns a box for each side
 /// of the plane, which contains every real point of this part on that side.

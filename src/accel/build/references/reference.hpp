@@ -1,8 +1,7 @@
 #pragma once
 #include "accel/build/float4.hpp"
 
-#include <microtrace/page_allocator.hpp>
-#include <microtrace/primitives.hpp>
+#include <microtrace/hit.hpp>
 
 #include <bit>
 
@@ -42,30 +41,21 @@ inline void prefetch_after(const Reference& r) {
   __builtin_prefetch(&r + 32);
 }
 
-struct References {
-  PageVector<Reference> bounded;
-  /// A hash for each bounded reference, equal for triangles with the same vertices.
-  PageVector<std::uint32_t> hashes;
-  std::vector<PrimitiveId> unbounded;
-  std::uint32_t triangle_weight = kTriangleWeight;  ///< or kUnsharedWeight
-  double area = 0;  ///< half the surface area of all bounded primitives' boxes
-};
-
 /// True if a triangle with this box may be stored in a block.
-[[nodiscard]] bool fits_blocks(const Box& box);
+[[nodiscard]] inline bool fits_blocks(const Box& b) {
+  const Float4 size = max(max(b.hi, -b.hi), max(b.lo, -b.lo));
+  return size[0] <= kLargestInBlocks && size[1] <= kLargestInBlocks && size[2] <= kLargestInBlocks;
+}
 
 [[nodiscard]] inline bool is_point(const Box& box) {
   const Int4 differs = box.lo != box.hi;
   return (differs[0] | differs[1] | differs[2]) == 0;
 }
 
-/// Divides the primitives of a scene's objects into bounded and unbounded ones, and omits empty
-/// ones. is_instance[i] is true for objects to be left out. Throws Error (limit) if there are more
-/// primitives than a tree can address.
-[[nodiscard]] References gather(const Primitives& primitives, const std::vector<bool>& is_instance);
-
-/// Gives triangles with three equal vertices the weight of non-triangle primitives. A float32 test
-/// can never exclude a hit with such a triangle, so each needs its own box.
-void set_points_apart(PageVector<Reference>& references);
+/// Returns half of a box's centroid, which orders boxes like their centroids and always stays
+/// finite.
+[[nodiscard]] inline Float4 centroid(const Box& b) {
+  return xyz(b.lo) * splat(0.25F) + xyz(b.hi) * splat(0.25F);
+}
 
 }  // namespace microtrace::build

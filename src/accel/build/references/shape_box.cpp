@@ -37,16 +37,8 @@ Box extended(const Vec3& center, const DVec3& reach) {
   return box;
 }
 
-Float4 lanes(const Vec3& v) {
-  return Float4{v.x, v.y, v.z, 0} + splat(0);  // -0 becomes 0, so the order of vertices has no
-                                               // effect
-}
-
 }  // namespace
 
-bool is_empty(const Triangle& t) {
-  return !(all_finite(t.a) && all_finite(t.b) && all_finite(t.c));
-}
 bool is_empty(const Sphere& s) {
   return !(all_finite(s.center) && std::isfinite(s.radius) && s.radius >= 0);
 }
@@ -59,14 +51,6 @@ bool is_empty(const Plane& p) {
 }
 bool is_empty(const Quadric& q) {
   return !all_finite(q.a, q.b, q.c, q.d, q.e, q.f, q.g, q.h, q.i, q.j);
-}
-
-Box box_of(const Triangle& t) {
-  Box box;
-  box.include(lanes(t.a));
-  box.include(lanes(t.b));
-  box.include(lanes(t.c));
-  return box;
 }
 
 Box box_of(const Sphere& s) {

@@ -1,6 +1,7 @@
 #include "accel/build/wide/tree_writer.hpp"
 
 #include "accel/build/binary/binning.hpp"
+#include "accel/build/references/shape_reader.hpp"
 #include "accel/build/wide/collapse.hpp"
 #include "accel/build/wide/wide_tree.hpp"
 #include "base/release.hpp"
@@ -218,7 +219,8 @@ class Writer {
     if (cursor.counts != nullptr)
       return child_ref::kTriangles | reference(cursor.next.blocks, *cursor.counts++);
     cursor.next.blocks = tree_.blocks.size();
-    fill(leaf, tree_.blocks);
+    ShapeReader shapes(primitives_);
+    fill(leaf, shapes, tree_.blocks);
     check(tree_.blocks.size() <= child_ref::kMaxLeafEntries);
     return child_ref::kTriangles |
            reference(cursor.next.blocks, tree_.blocks.size() - cursor.next.blocks);
@@ -234,10 +236,11 @@ class Writer {
   void fill(const BinaryNode& node, Filled& filled) const {
     filled.blocks.clear();
     filled.counts.clear();
+    ShapeReader shapes(primitives_);
     for_each_leaf(node, [&](const BinaryNode& leaf) {
       if (!has_triangles(leaf, triangle_weight_)) return;
       const std::size_t before = filled.blocks.size();
-      fill(leaf, filled.blocks);
+      fill(leaf, shapes, filled.blocks);
       filled.counts.push_back(static_cast<std::uint8_t>(filled.blocks.size() - before));
     });
   }
@@ -252,10 +255,14 @@ class Writer {
   }
 
   // Appends blocks with the triangles of a leaf.
-  void fill(const BinaryNode& leaf, PageVector<TriangleBlock>& blocks) const {
+  void fill(const BinaryNode& leaf, ShapeReader& shapes, PageVector<TriangleBlock>& blocks) const {
     std::optional<BlockFiller> filler;
-    for (const PrimitiveId id : ids_of(leaf)) {
-      const Triangle triangle = *primitives_.triangle(id);
+    for (std::size_t i = leaf.begin; i < leaf.begin + leaf.count(); ++i) {
+      // Leaves are filled mostly in the order of their ids.
+      const std::size_t ahead = i + ShapeReader::kAhead;
+      if (ahead < ids_.size()) shapes.prefetch(ids_[ahead]);
+      const PrimitiveId id = ids_[i];
+      const Triangle triangle = *shapes.triangle(id);
       if (filler && filler->add(id, triangle)) continue;
       filler.emplace(blocks.emplace_back());
       filler->add(id, triangle);
