@@ -16,9 +16,9 @@ constexpr std::uint32_t kLeastLogSize = 2, kMostLogSize = 6;
 /// Triangles that are smaller, in texels, have no maps of their own.
 constexpr double kLeastExtent = 4;
 /// Larger than the relative errors of sums and products of a few float32 numbers.
-constexpr double kRounding = 0x1p-20;
+constexpr double kSumRounding = 0x1p-20;
 /// Exceeds the effect of underflow.
-constexpr double kTiny = 0x1p-120;
+constexpr double kAlphaUnderflow = 0x1p-120;
 
 ValueInterval bounds_of(const std::array<double, 4>& values, std::size_t count, double margin) {
   const auto [lo, hi] = std::minmax_element(values.begin(), values.begin() + count);
@@ -26,11 +26,12 @@ ValueInterval bounds_of(const std::array<double, 4>& values, std::size_t count, 
 }
 
 /// The opacity where the base color's alpha is in this interval.
-Opacity opacity_of(const Material& material, const ValueInterval& alpha) {
-  const double lo = std::max(alpha.lo - kTiny, 0.0);
+Opacity opacity_within(const Material& material, const ValueInterval& alpha) {
+  const double lo = std::max(alpha.lo - kAlphaUnderflow, 0.0);
   if (material.alpha_mode == AlphaMode::mask) {
     if (lo >= material.alpha_cutoff) return Opacity::visible;
-    return alpha.hi + kTiny < material.alpha_cutoff ? Opacity::transparent : Opacity::unknown;
+    return alpha.hi + kAlphaUnderflow < material.alpha_cutoff ? Opacity::transparent
+                                                              : Opacity::unknown;
   }
   if (lo > 0) return Opacity::visible;
   return alpha.hi == 0 ? Opacity::transparent : Opacity::unknown;
@@ -83,15 +84,16 @@ OpacityMaps::TriangleAlpha::TriangleAlpha(const Mesh& mesh, std::size_t triangle
     uv_error += glm::abs(DVec2(m[0]) * at.x) + glm::abs(DVec2(m[1]) * at.y);
   }
   // Each point is at most as far from the origin as the sum of these terms.
-  is_valid &= std::max(uv_error.x, uv_error.y) < 0x1p19;
-  uv_error *= kRounding;
+  is_valid &= uv_error.x < 0x1p19 && uv_error.y < 0x1p19;
+  uv_error *= kSumRounding;
   uv_error += kTolerance * (glm::abs(uv[1] - uv[0]) + glm::abs(uv[2] - uv[0]));
 }
 
 void OpacityMaps::TriangleAlpha::set_factor() {
   const auto [least, greatest] = std::ranges::minmax(vertex_alpha);
   const double constant = look->material->base_color.w;
-  factor = {.lo = least * constant * (1 - kRounding), .hi = greatest * constant * (1 + kRounding)};
+  factor = {.lo = least * constant * (1 - kSumRounding),
+            .hi = greatest * constant * (1 + kSumRounding)};
   is_valid = factor.lo >= 0 && factor.hi < 0x1p60;
 }
 
@@ -110,11 +112,12 @@ Opacity OpacityMaps::TriangleAlpha::in_cell(std::uint32_t x, std::uint32_t y,
       v[i] = at.y;
     }
     const ValueInterval texel =
-        texture->over(bounds_of(u, count, uv_error.x), bounds_of(v, count, uv_error.y));
-    alpha = {.lo = alpha.lo * texel.lo * (1 - kRounding),
-             .hi = alpha.hi * texel.hi * (1 + kRounding)};
+        texture->over(*(*look)[MaterialTexture::base_color].map, bounds_of(u, count, uv_error.x),
+                      bounds_of(v, count, uv_error.y));
+    alpha = {.lo = alpha.lo * texel.lo * (1 - kSumRounding),
+             .hi = alpha.hi * texel.hi * (1 + kSumRounding)};
   }
-  return opacity_of(*look->material, alpha);
+  return opacity_within(*look->material, alpha);
 }
 
 double OpacityMaps::TriangleAlpha::extent() const {
@@ -165,7 +168,9 @@ std::size_t OpacityMaps::add(const Mesh& mesh, const TexturedMaterial& look) {
   take_memory(mesh.triangles.size() * sizeof(Map), "the opacity of triangles");
   maps_.reserve(maps_.size() + mesh.triangles.size());
   const AlphaBounds* const bounds =
-      slot.map == nullptr ? nullptr : &bounds_.try_emplace(slot.map, *slot.map).first->second;
+      slot.map == nullptr
+          ? nullptr
+          : &bounds_.try_emplace(&slot.map->image(), slot.map->image()).first->second;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     maps_.push_back(map_of(TriangleAlpha(mesh, i, look, bounds)));
   return known->second;

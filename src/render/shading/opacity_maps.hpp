@@ -83,7 +83,7 @@ class OpacityMaps {
   // Data of add().
   std::map<MeshKey, std::size_t> meshes_;  // the numbers of the first maps
   std::unordered_map<TriangleKey, Map, HashOfKey> triangles_;
-  std::map<const TextureMap*, AlphaBounds> bounds_;
+  std::map<const Image*, AlphaBounds> bounds_;
 };
 
 }  // namespace microtrace

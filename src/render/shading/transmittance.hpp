@@ -27,8 +27,9 @@ class LightBlockers {
         open_(passes_backs && tracer.knows_fronts() ? shading.open_fronts() : nullptr),
         may_pass_opaque_(passes_backs && shading.has_open_backs() && open_ == nullptr) {}
 
-  /// The hits that the queries of a RayTracer must find. Ray i must find its target targets[i] even
-  /// where that is transparent, unless `targets` is null. Valid as long as this object.
+  /// The hits that the queries of a RayTracer must find. Unless `targets` is null, ray i must find
+  /// its target targets[i], and hits beside it on the same emitter, even where they are
+  /// transparent. Valid as long as this object.
   [[nodiscard]] HitFilter filter(const std::uint32_t* targets = nullptr) {
     targets_ = targets;
     return {.open_fronts = open_,
@@ -43,8 +44,10 @@ class LightBlockers {
  private:
   static bool passes(const void* self, std::size_t i, const Ray& ray, PrimitiveId id) {
     const auto& blockers = *static_cast<const LightBlockers*>(self);
-    const bool is_target = blockers.targets_ != nullptr && blockers.targets_[i] == id;
-    return !is_target && blockers.shading_.is_transparent(ray, id);
+    const Shading& shading = blockers.shading_;
+    const bool may_be_target =
+        blockers.targets_ != nullptr && shading.is_same_emitter(id, blockers.targets_[i]);
+    return !may_be_target && shading.is_transparent(ray, id);
   }
 
   const Shading& shading_;

@@ -55,21 +55,23 @@ Texels touched(const ValueInterval& u, std::int64_t size, Filter filter) {
 
 }  // namespace
 
-AlphaBounds::AlphaBounds(const TextureMap& map) : map_(map), memory_(memory_account().budget()) {
-  const Image& image = map.image();
+AlphaBounds::AlphaBounds(const Image& image) : image_(image), memory_(memory_account().budget()) {
   if (image.channels % 2 != 0) return;
-  // The levels together have a third of the texels, more if they have odd sizes.
-  memory_.take((std::uint64_t{image.width} * image.height / 2 + image.width + image.height + 64) *
-                   sizeof(Values),
-               "the alpha of a texture");
-  for (std::uint64_t size = std::max(image.width, image.height); size > 1; size = (size + 1) / 2)
+  std::uint64_t blocks = 0;
+  for (std::uint64_t width = image_.width, height = image_.height; std::max(width, height) > 1;) {
+    width = (width + 1) / 2;
+    height = (height + 1) / 2;
+    blocks += width * height;
+  }
+  memory_.take(blocks * sizeof(Values), "the alpha of a texture");
+  for (std::uint64_t size = std::max(image_.width, image_.height); size > 1; size = (size + 1) / 2)
     add_level();
 }
 
 void AlphaBounds::add_level() {
   const std::size_t finer = levels_.size();
   const auto size = [&](std::uint32_t texels) { return ((std::int64_t{texels} - 1) >> finer) + 1; };
-  const std::int64_t width = size(map_.image().width), height = size(map_.image().height);
+  const std::int64_t width = size(image_.width), height = size(image_.height);
   Level level{.width = (width + 1) / 2, .values = {}};
   level.values.resize(static_cast<std::size_t>(level.width * ((height + 1) / 2)));
   const auto add = [&](const auto& values_at) {
@@ -83,26 +85,26 @@ void AlphaBounds::add_level() {
   else
     std::visit(
         [&](const auto& samples) {
-          const std::size_t channels = map_.image().channels;
+          const std::size_t channels = image_.channels;
           const auto* const alphas = samples.data() + channels - 1;
           add([=](std::int64_t x, std::int64_t y) {
             const std::uint16_t alpha = alphas[static_cast<std::size_t>(y * width + x) * channels];
             return Values{.least = alpha, .greatest = alpha};
           });
         },
-        map_.image().samples);
+        image_.samples);
   levels_.push_back(std::move(level));
 }
 
 AlphaBounds::Values AlphaBounds::texel(std::int64_t x, std::int64_t y) const {
-  const Image& image = map_.image();
-  const std::size_t pixel = static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x);
+  const std::size_t pixel =
+      static_cast<std::size_t>(y) * image_.width + static_cast<std::size_t>(x);
   return std::visit(
       [&](const auto& samples) {
-        const std::uint16_t value = samples[pixel * image.channels + image.channels - 1];
+        const std::uint16_t value = samples[pixel * image_.channels + image_.channels - 1];
         return Values{.least = value, .greatest = value};
       },
-      image.samples);
+      image_.samples);
 }
 
 AlphaBounds::Values AlphaBounds::over(const Texels& x, const Texels& y) const {
@@ -116,21 +118,21 @@ AlphaBounds::Values AlphaBounds::over(const Texels& x, const Texels& y) const {
   return sum;
 }
 
-ValueInterval AlphaBounds::over(const ValueInterval& u, const ValueInterval& v) const {
+ValueInterval AlphaBounds::over(const TextureMap& map, const ValueInterval& u,
+                                const ValueInterval& v) const {
   // The lookup's weights have a sum of 1 but for rounding.
-  constexpr double kRounding = 0x1p-20;
-  const Image& image = map_.image();
-  const Sampler& sampler = map_.sampler();
-  if (image.channels % 2 != 0) return {1 - kRounding, 1 + kRounding};
-  const auto columns =
-      wrapped(touched<Texels>(u, image.width, sampler.magnification), sampler.wrap_s, image.width);
-  const auto rows = wrapped(touched<Texels>(v, image.height, sampler.magnification), sampler.wrap_t,
-                            image.height);
+  constexpr double kOfWeights = 0x1p-20;
+  const Sampler& sampler = map.sampler();
+  if (image_.channels % 2 != 0) return {1 - kOfWeights, 1 + kOfWeights};
+  const auto columns = wrapped(touched<Texels>(u, image_.width, sampler.magnification),
+                               sampler.wrap_s, image_.width);
+  const auto rows = wrapped(touched<Texels>(v, image_.height, sampler.magnification),
+                            sampler.wrap_t, image_.height);
   Values sum;
   for (std::size_t i = 0; i < columns.count; ++i)
     for (std::size_t j = 0; j < rows.count; ++j) sum.add(over(columns.part[i], rows.part[j]));
-  return {double{map_.alpha(sum.least)} * (1 - kRounding),
-          double{map_.alpha(sum.greatest)} * (1 + kRounding)};
+  return {double{map.alpha(sum.least)} * (1 - kOfWeights),
+          double{map.alpha(sum.greatest)} * (1 + kOfWeights)};
 }
 
 }  // namespace microtrace

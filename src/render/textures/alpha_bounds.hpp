@@ -1,5 +1,5 @@
 #pragma once
-/// Bounds of the alpha of a texture over regions.
+/// Bounds of the alpha of textures over regions.
 
 #include "base/memory_account.hpp"
 #include "render/textures/texture_map.hpp"
@@ -17,16 +17,17 @@ struct ValueInterval {
   double lo, hi;
 };
 
-/// A pyramid of the least and the greatest alpha of blocks of texels. Temporary data for preparing
-/// a scene.
+/// A pyramid of the least and the greatest alpha of blocks of an image's texels. Temporary data for
+/// preparing a scene.
 class AlphaBounds {
  public:
-  /// The map must outlive this object.
-  explicit AlphaBounds(const TextureMap& map);
+  /// The image must outlive this object.
+  explicit AlphaBounds(const Image& image);
 
-  /// Contains TextureMap::sample(uv, 0).w for all float32 texture coordinates in [u.lo, u.hi] x
-  /// [v.lo, v.hi], which must be within [-2^20, 2^20].
-  [[nodiscard]] ValueInterval over(const ValueInterval& u, const ValueInterval& v) const;
+  /// Contains map.sample(uv, 0).w for all float32 texture coordinates in [u.lo, u.hi] x [v.lo,
+  /// v.hi], which must be within [-2^20, 2^20]. The map must be one of the image.
+  [[nodiscard]] ValueInterval over(const TextureMap& map, const ValueInterval& u,
+                                   const ValueInterval& v) const;
 
  private:
   /// The least and the greatest sample value.
@@ -57,7 +58,7 @@ class AlphaBounds {
   }
   [[nodiscard]] Values over(const Texels& x, const Texels& y) const;
 
-  const TextureMap& map_;
+  const Image& image_;
   MemoryAccount memory_;
   std::vector<Level> levels_;  // from level 1 on; empty if the image has no alpha
 };

@@ -113,8 +113,8 @@ namespace {
 typedef double FourDoubles __attribute__((vector_size(32)));
 
 /// Computes a level of exactly half the size. add(x, y, sum) adds a pixel of the finer level,
-/// multiplied by kPart, to the sum.
-constexpr double kPart = 0.25 * 65535.0;
+/// multiplied by kQuarterOfMost, to the sum.
+constexpr double kQuarterOfMost = 0.25 * 65535.0;
 template <class Add>
 void halve_lines(std::uint32_t width, std::uint32_t height, const Add& add,
                  std::vector<std::uint16_t>& samples) {
@@ -140,7 +140,7 @@ void TexturePyramid::halve(std::size_t finer, Level& level) const {
     const std::uint16_t* from = levels_[finer - 1].samples.data();
     const auto add = [=](std::size_t x, std::size_t y, FourDoubles& sum) {
       const std::uint16_t* s = from + (y * columns + x) * 4;
-      sum += kPart *
+      sum += kQuarterOfMost *
              (FourDoubles{double(s[0]), double(s[1]), double(s[2]), double(s[3])} * (1 / 65535.0));
     };
     return halve_lines(level.width, level.height, add, level.samples);
@@ -154,7 +154,7 @@ void TexturePyramid::halve(std::size_t finer, Level& level) const {
             const auto* s = from + (y * columns + x) * channels;
             const double a = channels % 2 == 0 ? alpha[s[channels - 1]] : 1;
             constexpr int kGreen = channels < 3 ? 0 : 1, kBlue = channels < 3 ? 0 : 2;
-            sum += kPart * FourDoubles{color[s[0]], color[s[kGreen]], color[s[kBlue]], a};
+            sum += kQuarterOfMost * FourDoubles{color[s[0]], color[s[kGreen]], color[s[kBlue]], a};
           };
           halve_lines(level.width, level.height, add, level.samples);
         };
