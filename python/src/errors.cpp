@@ -44,7 +44,9 @@ void bind_errors(nb::module_& /*module*/) {
     } catch (const Error& error) {
       set_exception(error.kind(), error.diagnostic());
     } catch (const std::bad_alloc&) {
-      set_exception(ErrorKind::limit, {.message = "out of memory"});
+      Diagnostic diagnostic;
+      diagnostic.message = "out of memory";
+      set_exception(ErrorKind::limit, diagnostic);
     }
   });
 }

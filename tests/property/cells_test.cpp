@@ -29,7 +29,7 @@ namespace {
 using build::BinaryNode;
 using build::References;
 
-class Random {
+class CellRandom {
  public:
   float number() { return static_cast<float>(bits_()) * 0x1p-32F; }
   float symmetric() { return 2 * number() - 1; }
@@ -54,8 +54,8 @@ void add(Mesh& mesh, const Mesh& other, float scale, const Vec3& at) {
 }
 
 /// Returns triangles of random sizes at random points.
-Mesh soup(std::size_t count, const std::function<float(Random&)>& size) {
-  Random random;
+Mesh soup(std::size_t count, const std::function<float(CellRandom&)>& size) {
+  CellRandom random;
   Mesh mesh;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 p = random.in_cube();
@@ -74,7 +74,7 @@ Mesh dense_in_sparse(float distance) {
 }
 
 Mesh with_triangles_around(Mesh mesh) {
-  Random random;
+  CellRandom random;
   for (int i = 0; i < 100; ++i) {
     const Vec3 p = 1e4F * random.in_cube();
     add(mesh, {p, p + 1e3F * random.in_cube(), p + 1e3F * random.in_cube()});
@@ -96,7 +96,7 @@ Mesh nested() {
 
 /// Returns groups of close triangles, far from each other.
 Mesh clusters(int in_cluster) {
-  Random random;
+  CellRandom random;
   Mesh mesh;
   for (int i = 0; i < 20000 / in_cluster; ++i) {
     const Vec3 center = random.in_cube();
@@ -109,7 +109,7 @@ Mesh clusters(int in_cluster) {
 }
 
 Mesh hairs() {
-  Random random;
+  CellRandom random;
   Mesh mesh;
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p = random.in_cube();
@@ -137,7 +137,7 @@ Mesh slivers() {
 
 /// Returns triangles whose boxes all have the same center.
 Mesh concentric(std::size_t count) {
-  Random random;
+  CellRandom random;
   Mesh mesh;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 p = (1 + random.number()) * Vec3(1, random.symmetric(), random.symmetric());
@@ -165,7 +165,7 @@ Mesh flat(Mesh mesh) {
   return mesh;
 }
 
-Scene scene_with(const Mesh& mesh) {
+Scene scene_of_cells(const Mesh& mesh) {
   Scene scene;
   scene.objects.push_back({.name = "", .shape = mesh});
   return scene;
@@ -201,7 +201,7 @@ struct Case {
 };
 
 std::vector<Case> difficult_cases() {
-  const auto constant = [](float size) { return [=](Random&) { return size; }; };
+  const auto constant = [](float size) { return [=](CellRandom&) { return size; }; };
   return {
       {"a dense mesh and a far triangle", dense_in_sparse(1e3F)},
       {"a dense mesh and a very far triangle", dense_in_sparse(1e6F)},
@@ -212,9 +212,10 @@ std::vector<Case> difficult_cases() {
       {"clusters as large as a cell", clusters(32)},
       {"clusters larger than a cell", clusters(100)},
       {"few large triangles among small ones",
-       soup(20000, [](Random& r) { return r.number() < 0.01F ? 0.3F : 0.003F; })},
+       soup(20000, [](CellRandom& r) { return r.number() < 0.01F ? 0.3F : 0.003F; })},
       {"triangles of all sizes",
-       soup(20000, [](Random& r) { return std::ldexp(1.0F, -static_cast<int>(r.bits()() % 12)); })},
+       soup(20000,
+            [](CellRandom& r) { return std::ldexp(1.0F, -static_cast<int>(r.bits()() % 12)); })},
       {"large triangles", soup(5000, constant(0.5F))},
       {"long thin triangles", hairs()},
       {"slivers", slivers()},
@@ -229,7 +230,7 @@ TEST(Cells, GiveTreesAsGoodAsSingleReferences) {
   build::WorkerPool pool(2);
   for (const auto& [name, mesh] : difficult_cases()) {
     SCOPED_TRACE(name);
-    const Scene scene = scene_with(mesh);
+    const Scene scene = scene_of_cells(mesh);
     const Primitives primitives(scene);
     References of_cells = sorted(primitives, pool), single = sorted(primitives, pool);
     single.cells.resize(single.items.size() + 1);
@@ -242,7 +243,7 @@ TEST(Cells, AreSmallAndContainAllItems) {
   build::WorkerPool pool(2);
   for (const auto& [name, mesh] : difficult_cases()) {
     SCOPED_TRACE(name);
-    const Scene scene = scene_with(mesh);
+    const Scene scene = scene_of_cells(mesh);
     const Primitives primitives(scene);
     const References references = sorted(primitives, pool);
     std::vector<std::uint32_t> primitives_in(primitives.count()),
@@ -265,7 +266,7 @@ TEST(Cells, AreTheSameForAnyNumberOfThreads) {
   build::WorkerPool one(1), several(3);
   for (const auto& [name, mesh] : difficult_cases()) {
     SCOPED_TRACE(name);
-    const Scene scene = scene_with(mesh);
+    const Scene scene = scene_of_cells(mesh);
     const Primitives primitives(scene);
     const References a = sorted(primitives, one), b = sorted(primitives, several);
     EXPECT_TRUE(
@@ -278,8 +279,8 @@ TEST(Cells, FindDuplicatesInADetailOfAScene) {
   const Mesh sphere = generated::displaced_sphere(5000);
   Mesh mesh = copies(4, 0);
   add(mesh, {{1e6F, 0, 0}, {1e6F, 1, 0}, {1e6F, 0, 1}});
-  std::ranges::shuffle(mesh.triangles.edit(), Random().bits());
-  const Scene scene = scene_with(mesh);
+  std::ranges::shuffle(mesh.triangles.edit(), CellRandom().bits());
+  const Scene scene = scene_of_cells(mesh);
   const Tree tree = build_tree(Primitives(scene), {});
   EXPECT_EQ(tree.duplicates.ids().size(), 3 * sphere.triangles.size());
 }
@@ -307,7 +308,7 @@ TEST(Cells, GiveValidTreesOfDegenerateMeshes) {
                                 {"equal centroids", concentric(3000)}};
   for (const auto& [name, mesh] : cases) {
     SCOPED_TRACE(name);
-    const Scene scene = scene_with(mesh);
+    const Scene scene = scene_of_cells(mesh);
     const Primitives primitives(scene);
     for (const bool keeps_duplicates : {false, true}) {
       const Tree tree = build_tree(primitives, {.keeps_duplicates = keeps_duplicates});
@@ -323,11 +324,11 @@ TEST(Cells, GiveValidTreesOfDegenerateMeshes) {
 
 TEST(Cells, GiveTheSameHitsForAnyOrderOfTriangles) {
   Mesh mesh = dense_in_sparse(1e3F);
-  const Scene scene = scene_with(mesh);
-  std::ranges::shuffle(mesh.triangles.edit(), Random().bits());
-  const Scene shuffled = scene_with(mesh);
+  const Scene scene = scene_of_cells(mesh);
+  std::ranges::shuffle(mesh.triangles.edit(), CellRandom().bits());
+  const Scene shuffled = scene_of_cells(mesh);
   const Bvh bvh(scene), other(shuffled);
-  Random random;
+  CellRandom random;
   int hits = 0;
   for (int i = 0; i < 3000; ++i) {
     const Ray ray{.o = 2.0F * random.in_cube(), .d = random.in_cube()};
