@@ -72,7 +72,7 @@ def test_a_slow_task_that_fails_is_not_repeated_beside_its_parts():
             return Outcome("a", error=OSError("the disk is full"))
         began.set()
         failed.wait(20)
-        threading.Event().wait(1)
+        threading.Event().wait(0.5)  # less than the second after which it would be slow itself
         return Outcome("b", 1.0)
 
     for retries in (0, 3):
