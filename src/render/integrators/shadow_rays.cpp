@@ -25,7 +25,7 @@ void ShadowRays::Group::add(const ShadingKernels& kernels, Lanes lanes, const Sh
     columns.add(from.media, rays.media);
     columns.add(from.light, rays.light);
   }
-  count += columns.append(kernels, {.lanes = lanes, .from = 0, .to = count, .has_room = true});
+  count += columns.append(kernels, {.lanes = lanes, .from = 0, .to = count});
 }
 
 void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from) {

@@ -55,10 +55,9 @@ Lanes VertexQueue::add(Lanes lanes, const Vertices& from) {
   const auto& [group, paths, first] = from;
   if (from_paths_.begins(&paths)) list_paths(paths);
   if (from_group_.begins(&group)) list_group(group);
-  const bool is_empty = count_ == 0;
-  count_ += static_cast<int>(from_paths_.append(
-      kernels_, {.lanes = added, .from = first, .to = to, .has_room = is_empty}));
-  const AppendedLanes in_group{.lanes = added, .from = 0, .to = to, .has_room = is_empty};
+  count_ += static_cast<int>(
+      from_paths_.append(kernels_, {.lanes = added, .from = first, .to = to, .fills_lanes = true}));
+  const AppendedLanes in_group{.lanes = added, .from = 0, .to = to, .fills_lanes = true};
   from_group_.append(kernels_, in_group);
   if ((group.mapped & added) != 0) from_maps_.append(kernels_, in_group);
   if (features_.index() != 0) from_extensions_.append(kernels_, in_group);
@@ -171,8 +170,7 @@ void VertexQueue::continue_paths(Lanes lanes, const WaveStep& step, OutgoingRays
     }
   }
   if (to_paths_.begins(&outgoing.paths)) list_next(outgoing.paths);
-  outgoing.count += to_paths_.append(
-      kernels_, {.lanes = found, .from = 0, .to = outgoing.count, .has_room = true});
+  outgoing.count += to_paths_.append(kernels_, {.lanes = found, .from = 0, .to = outgoing.count});
 }
 
 VertexQueues::VertexQueues()

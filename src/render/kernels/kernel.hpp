@@ -102,8 +102,9 @@ struct ColumnCopy {
 struct AppendedLanes {
   std::uint32_t lanes;  ///< one bit for each of kShadingLanes lanes
   std::size_t from, to;
-  /// True if kShadingLanes elements of the arrays from `to` on may be overwritten.
-  bool has_room = false;
+  /// True if the arrays to which lanes are appended have only kShadingLanes elements. Otherwise,
+  /// kShadingLanes elements from `to` on may be overwritten.
+  bool fills_lanes = false;
 };
 
 struct ShadingKernels {
