@@ -45,14 +45,12 @@ std::vector<LightBounds> lights(Random& random, int count) {
 
 LightNodes<1> small_light(float cos_o) {
   const float sin_o = std::sqrt(1 - cos_o * cos_o);
-  return LightNodes<1>(LightNode{.center = {0, 0, 0},
-                                 .radius = 1e-4F,
-                                 .axis = {0, 0, 1},
-                                 .power = 1,
-                                 .cos_o = cos_o,
-                                 .sin_o = sin_o,
-                                 .cos_e = 0,
-                                 .is_two_sided = 0});
+  return LightNodes<1>(
+      LightNode{.center = {0, 0, 0},
+                .radius = 1e-4F,
+                .power = 1,
+                .cos_o = cos_o,
+                .cone = {.axis = {0, 0, 1}, .sin_o = sin_o, .cos_e = 0, .is_two_sided = 0}});
 }
 
 // Behind a light, the angle to its axis is near pi, whose sine is that of 0.

@@ -7,6 +7,7 @@
 #include "simd/vector3.hpp"
 #include "simd/vectors.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace microtrace {
@@ -16,13 +17,18 @@ namespace microtrace {
 struct alignas(64) LightNode {
   float center[3];  ///< center of the bounding box
   float radius;     ///< radius of the box's bounding sphere
-  float axis[3];    ///< axis of the cone of normals, of unit length
   float power;
-  float cos_o, sin_o;  ///< cosine and sine of half the cone's opening angle
-  float cos_e;         ///< cosine of the greatest angle to its normal at which a light emits
-  float is_two_sided;  ///< 1 if the lights also emit around -axis
+  float cos_o;  ///< cosine of half the opening angle of the cone of normals; -1 for all directions
   std::uint32_t children = 0;  ///< index of the first of two adjacent children; 0 for leaves
   std::uint32_t light = 0;     ///< index of the light in a leaf
+
+  /// The cone of normals, which is not used if it contains all directions.
+  struct alignas(32) Cone {
+    float axis[3];  ///< of unit length
+    float sin_o;
+    float cos_e;         ///< cosine of the greatest angle to its normal at which a light emits
+    float is_two_sided;  ///< 1 if the lights also emit around -axis
+  } cone;
 };
 
 /// The units of a light tree. Lengths are multiples of its size and powers multiples of its total
@@ -71,39 +77,54 @@ struct LightNodes {
   using F = Float<N>;
   using V = Floats3<N>;
 
-  V center, axis;
-  F radius, power, cos_o, sin_o, cos_e, is_two_sided;
+  V center;
+  F radius, power, cos_o;
   Unsigned<N> children, light;
+  // The members of the cones, unless is_everywhere().
+  V axis{};
+  F sin_o{}, cos_e{}, is_two_sided{};
 
   /// Puts the same node in all lanes.
   explicit LightNodes(const LightNode& node)
       : center{all<N>(node.center[0]), all<N>(node.center[1]), all<N>(node.center[2])},
-        axis{all<N>(node.axis[0]), all<N>(node.axis[1]), all<N>(node.axis[2])},
         radius(all<N>(node.radius)),
         power(all<N>(node.power)),
         cos_o(all<N>(node.cos_o)),
-        sin_o(all<N>(node.sin_o)),
-        cos_e(all<N>(node.cos_e)),
-        is_two_sided(all<N>(node.is_two_sided)),
         children(Unsigned<N>{} + node.children),
-        light(Unsigned<N>{} + node.light) {}
+        light(Unsigned<N>{} + node.light) {
+    if (is_everywhere()) return;
+    const LightNode::Cone& cone = node.cone;
+    axis = {all<N>(cone.axis[0]), all<N>(cone.axis[1]), all<N>(cone.axis[2])};
+    sin_o = all<N>(cone.sin_o);
+    cos_e = all<N>(cone.cos_e);
+    is_two_sided = all<N>(cone.is_two_sided);
+  }
 
   /// Loads the nodes with these indices.
   LightNodes(const LightNode* nodes, const std::uint32_t (&indices)[N]) {
-    constexpr int kColumns = sizeof(LightNode) / sizeof(float);
+    constexpr int kColumns = 8;  // the two halves of a node are rows
+    static_assert(offsetof(LightNode, cone) == kColumns * sizeof(float) &&
+                  sizeof(LightNode) == 2 * kColumns * sizeof(float));
+    std::uint32_t rows[N];
+    for (int i = 0; i < N; ++i) rows[i] = 2 * indices[i];
     F columns[kColumns];
-    load_rows<N>(nodes->center, indices, columns);
+    load_rows<N>(nodes->center, rows, columns);
     center = {columns[0], columns[1], columns[2]};
     radius = columns[3];
-    axis = {columns[4], columns[5], columns[6]};
-    power = columns[7];
-    cos_o = columns[8];
-    sin_o = columns[9];
-    cos_e = columns[10];
-    is_two_sided = columns[11];
-    children = reinterpreted<Unsigned<N>>(columns[12]);
-    light = reinterpreted<Unsigned<N>>(columns[13]);
+    power = columns[4];
+    cos_o = columns[5];
+    children = reinterpreted<Unsigned<N>>(columns[6]);
+    light = reinterpreted<Unsigned<N>>(columns[7]);
+    if (is_everywhere()) return;
+    load_rows<N>(nodes->cone.axis, rows, columns);
+    axis = {columns[0], columns[1], columns[2]};
+    sin_o = columns[3];
+    cos_e = columns[4];
+    is_two_sided = columns[5];
   }
+
+  /// True if all cones contain all directions, which is so for point lights.
+  [[nodiscard]] bool is_everywhere() const { return less<N>(all<N>(-1), cos_o) == 0; }
 
   /// An upper bound of the light that arrives at p, except for the BSDF and a constant factor. `n`
   /// is the unit normal at p on either side. The result is positive unless no light arrives.
@@ -124,7 +145,7 @@ struct LightNodes {
     };
     F cosines = least_cosine(LightAngle<N>::of(magnitude(F(dot(to_light, n))), square));
     auto is_reached = cosines > 0;
-    if (less<N>(all<N>(-1), cos_o) != 0) {  // not for point lights, which emit in all directions
+    if (!is_everywhere()) {
       const F along = dot(axis, to_light);
       const auto to_point = LightAngle<N>::of(is_two_sided != 0 ? magnitude(along) : along, square);
       const LightAngle<N> beyond = to_point - LightAngle<N>{cos_o, sin_o};

@@ -76,12 +76,12 @@ LightNode node_of(const LightBounds& bounds, const LightTreeSpace& space, double
   const LightCone& cone = bounds.cone;
   return {.center = {center.x, center.y, center.z},
           .radius = static_cast<float>(radius),
-          .axis = {cone.axis.x, cone.axis.y, cone.axis.z},
           .power = static_cast<float>(power),
           .cos_o = cone.cos_o,
-          .sin_o = angle_of(cone.cos_o).sine,
-          .cos_e = cone.cos_e,
-          .is_two_sided = bounds.two_sided ? 1.0F : 0.0F};
+          .cone = {.axis = {cone.axis.x, cone.axis.y, cone.axis.z},
+                   .sin_o = angle_of(cone.cos_o).sine,
+                   .cos_e = cone.cos_e,
+                   .is_two_sided = bounds.two_sided ? 1.0F : 0.0F}};
 }
 
 struct Bucket {
