@@ -153,8 +153,9 @@ void AtomicFile::write(std::string_view bytes) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
     } else if (written == 0 || errno != EINTR) {
       const int error = written == 0 ? EIO : errno;
-      fail(error, error == EPIPE ? "the program that reads the pipe has ended"
-                                 : "free some space, or name another file");
+      fail(error, error == EPIPE   ? "the program that reads the pipe has ended"
+                  : error == EBADF ? "open that descriptor for writing"
+                                   : "free some space, or name another file");
     }
   }
 }

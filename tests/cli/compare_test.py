@@ -5,6 +5,7 @@ usage: compare_test.py PROGRAM SOURCE_FOLDER
 """
 
 import json
+import os
 import random
 import re
 import shutil
@@ -49,6 +50,12 @@ class Compare(ProgramTest):
                 result = subprocess.run([PROGRAM, "compare", "a.ppm", other], cwd=self.folder, stdout=full, stderr=subprocess.PIPE)
             self.assertEqual(result.returncode, 5, result.stderr)
             self.assertIn(b"standard output: can't be written: No space left on device", result.stderr)
+            reader, writer = os.pipe()
+            os.close(reader)
+            result = subprocess.run([PROGRAM, "compare", "a.ppm", other], cwd=self.folder, stdout=writer, stderr=subprocess.PIPE)
+            os.close(writer)
+            self.assertEqual(result.returncode, 5, result.stderr)
+            self.assertEqual(result.stderr, b"error: standard output: can't be written: Broken pipe; the program that reads the pipe has ended\n")
 
     def test_formats_of_one_rendering_are_equal(self):
         for extension in ("ppm", "png", "exr", "tif"):
