@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gmock/gmock.h>
 
@@ -232,10 +233,59 @@ TEST(GltfAnimationPointer, NodesAppearAndDisappear) {
   asset.json["nodes"][0]["extensions"]["KHR_node_visibility"] = {{"visible", false}};
   const std::size_t shown = asset.add_numbers<std::uint8_t>("SCALAR", {1, 0});
   point(asset, "/nodes/0/extensions/KHR_node_visibility/visible", shown, "STEP");
-  EXPECT_EQ(at(asset, 0).scene.objects.size(), 1U);
-  EXPECT_EQ(at(asset, 1.99).scene.objects.size(), 1U);
-  EXPECT_TRUE(load(asset, {.time = 2}).scene.objects.empty());
+  const auto triangles_at = [&](std::optional<double> time) {
+    const LoadedScene loaded = load(asset, {.time = time});
+    const std::size_t triangles =
+        loaded.scene.objects.empty()
+            ? 0
+            : std::get<Mesh>(loaded.scene.objects.at(0).shape).triangles.size();
+    const bool warns = std::ranges::any_of(texts(loaded.warnings), [](const std::string& text) {
+      return text.find("nothing to draw") != std::string::npos;
+    });
+    EXPECT_EQ(warns, triangles == 0);
+    return triangles;
+  };
+  EXPECT_EQ(triangles_at(0), 12U);
+  EXPECT_EQ(triangles_at(1.99), 12U);
+  EXPECT_EQ(triangles_at(2), 0U);
+  EXPECT_EQ(triangles_at(std::nullopt), 0U);
   EXPECT_TRUE(load(asset).scene.objects.empty());
+}
+
+TEST(GltfAnimationPointer, HiddenNodesKeepTheNumbersAndNamesOfOthers) {
+  AssetBuilder asset = cube();
+  use(asset, "KHR_node_visibility");
+  use(asset, "EXT_mesh_gpu_instancing");
+  const Json visible = {{"visible", true}}, hidden = {{"visible", false}};
+  asset.json["nodes"][0] = {{"children", {1, 2}},
+                            {"extensions", {{"KHR_node_visibility", visible}}}};
+  const std::size_t places = asset.add_numbers<float>("VEC3", {0, 0, 0, 3, 0, 0});
+  asset.add(
+      "nodes",
+      {{"name", "twin"},
+       {"mesh", 0},
+       {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
+  asset.add("nodes",
+            {{"name", "never"}, {"mesh", 0}, {"extensions", {{"KHR_node_visibility", hidden}}}});
+  asset.add("nodes", {{"name", "same"}, {"mesh", 0}});
+  asset.add("nodes", {{"name", "same"}, {"mesh", 0}});
+  asset.json["nodes"][3]["extensions"]["KHR_node_visibility"] = visible;
+  asset.json["scenes"][0]["nodes"] = {0, 3, 4};
+  for (const char* node : {"0", "3"}) {
+    const std::string pointer =
+        std::string("/nodes/") + node + "/extensions/KHR_node_visibility/visible";
+    point(asset, pointer.c_str(), asset.add_numbers<std::uint8_t>("SCALAR", {1, 0}), "STEP");
+  }
+  const auto names_at = [&](double time) {
+    std::vector<std::string> names;
+    for (const Object& object : at(asset, time).scene.objects) names.push_back(object.name.str());
+    return names;
+  };
+  EXPECT_EQ(names_at(0).size(), 4U);
+  EXPECT_EQ(names_at(2), names_at(0));
+  const Scene scene = at(asset, 2).scene;
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(std::get<Mesh>(scene.objects.at(i).shape).triangles.empty(), i < 3) << i;
 }
 
 TEST(GltfAnimationPointer, IntegersMayBeNormalizedOrNot) {

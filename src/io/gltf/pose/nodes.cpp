@@ -17,10 +17,14 @@ bool starts_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }
 
-/// Returns true if the node itself is visible. The pose may animate this.
-bool is_shown(const Asset& asset, const Model& model, std::size_t node, const PosedNodes& pose) {
+/// Returns the visibility of the node itself, if the pose animates it.
+std::optional<bool> posed_visibility(std::size_t node, const PosedNodes& pose) {
   const auto posed = pose.empty() ? pose.end() : pose.find(node);
-  if (posed != pose.end() && posed->second.visible) return *posed->second.visible;
+  return posed != pose.end() ? posed->second.visible : std::nullopt;
+}
+
+/// Returns true if the file itself shows the node.
+bool is_shown(const Asset& asset, const Model& model, std::size_t node) {
   if (!model.nodes[node].has_extensions) return true;
   const auto visibility = extension(asset.element("nodes", node), "KHR_node_visibility");
   if (!visibility) return true;
@@ -96,9 +100,12 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
     if (placed[node]) continue;
     placed[node] = true;
     const DMat4& world_from_parent = parent ? result[*parent].world_from_node : world_from_asset;
-    const bool is_parent_visible = !parent || result[*parent].visible;
-    result.push_back({node, world_from_parent * parent_from_node(node, pose),
-                      is_parent_visible && is_shown(asset, model_, node, pose)});
+    const std::optional<bool> posed = posed_visibility(node, pose);
+    const bool shown = posed ? *posed : is_shown(asset, model_, node);
+    result.push_back({.node = node,
+                      .world_from_node = world_from_parent * parent_from_node(node, pose),
+                      .visible = (!parent || result[*parent].visible) && shown,
+                      .numbered = (!parent || result[*parent].numbered) && (shown || posed)});
     const std::vector<std::size_t>& children = model_.nodes[node].children;
     for (std::size_t i = children.size(); i-- > 0;) {
       open.push_back({children[i], result.size() - 1});

@@ -22,6 +22,8 @@ struct PlacedNode {
   DMat4 world_from_node;
   bool visible = true;  ///< product of its own and its ancestors' visibility (KHR_node_visibility);
                         ///< irrelevant for cameras
+  bool numbered = true;  ///< visible, or hidden only by the pose; has objects, so that all poses of
+                         ///< an animation give an object the same number and name
 };
 
 /// Returns translation * rotation * scale. The rotation must be a unit quaternion (x, y, z, w).

@@ -38,9 +38,9 @@ constexpr std::size_t kPlacementsOfBlock = 64;
 }  // namespace
 
 template <class F>
-void ObjectMaker::for_each_drawn(const std::vector<PlacedNode>& nodes, const F& f) const {
+void ObjectMaker::for_each_numbered(const std::vector<PlacedNode>& nodes, const F& f) const {
   for (const PlacedNode& placed : nodes) {
-    if (!model_.nodes[placed.node].mesh || !placed.visible) continue;
+    if (!model_.nodes[placed.node].mesh || !placed.numbered) continue;
     const InstanceTransforms* instances = instances_.of(placed.node);
     f(placed, instances != nullptr ? instances->size() : 1);
   }
@@ -48,12 +48,12 @@ void ObjectMaker::for_each_drawn(const std::vector<PlacedNode>& nodes, const F& 
 
 void ObjectMaker::choose_shared(const std::vector<PlacedNode>& nodes) {
   if (sharing_.instancing == Instancing::copied) return;
-  for_each_drawn(nodes, [&](const PlacedNode& placed, std::size_t times) {
+  for_each_numbered(nodes, [&](const PlacedNode& placed, std::size_t times) {
     uses_[*model_.nodes[placed.node].mesh] += times * sharing_.copies;
   });
   if (sharing_.instancing == Instancing::shared) return;
   std::size_t copied = 0;
-  for_each_drawn(nodes, [&](const PlacedNode& placed, std::size_t times) {
+  for_each_numbered(nodes, [&](const PlacedNode& placed, std::size_t times) {
     for (const Surface& surface : surfaces_[*model_.nodes[placed.node].mesh])
       if (is_shared(placed.node, surface))
         copied += times * sharing_.copies * surface.mesh.triangles.size();
@@ -71,11 +71,12 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
   std::size_t objects = 0, triangles = 0, vertices = 0;
   std::uint64_t primitives = 0;  // including those of instances
   std::uint64_t bytes = 0;
-  for_each_drawn(nodes, [&](const PlacedNode& placed, std::size_t times) {
+  for_each_numbered(nodes, [&](const PlacedNode& placed, std::size_t times) {
     const std::size_t mesh = *model_.nodes[placed.node].mesh;
     objects += times * surfaces_[mesh].size();
     bytes += surfaces_[mesh].size() *
              (times * kBytesOfObject + kBytesOfName + tree_.path(placed.node).size());
+    if (!placed.visible) return;
     for (const Surface& surface : surfaces_[mesh]) {
       primitives += times * sharing_.copies * surface.mesh.triangles.size();
       if (is_shared(placed.node, surface)) continue;
@@ -101,7 +102,7 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
 }
 
 void ObjectMaker::add_mesh(const PlacedNode& placed) {
-  if (!model_.nodes[placed.node].mesh || !placed.visible) return;
+  if (!model_.nodes[placed.node].mesh || !placed.numbered) return;
   const InstanceTransforms* instances = instances_.of(placed.node);
   if (instances != nullptr && poser_.has_skin(placed.node)) {
     asset_.warn(asset_.element("nodes", placed.node),
@@ -109,10 +110,23 @@ void ObjectMaker::add_mesh(const PlacedNode& placed) {
     instances = nullptr;
   }
   const std::vector<ObjectName> own = names(placed.node, instances != nullptr);
+  if (!placed.visible) return add_hidden(placed.node, own, instances);
   if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, own, 0);
   for (std::size_t i = 0; i < instances->size(); ++i)
     add_mesh(placed.node, placed.world_from_node * (*instances)[i], own,
              static_cast<std::uint32_t>(i));
+}
+
+void ObjectMaker::add_hidden(std::size_t node, const std::vector<ObjectName>& own,
+                             const InstanceTransforms* instances) {
+  const std::vector<Surface>& surfaces = surfaces_[*model_.nodes[node].mesh];
+  for (std::size_t i = 0; i < (instances != nullptr ? instances->size() : 1); ++i) {
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      objects_.push_back({.name = own[k].with_number(static_cast<std::uint32_t>(i)),
+                          .shape = Mesh(),
+                          .material = surfaces[k].material});
+    }
+  }
 }
 
 void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
@@ -137,6 +151,7 @@ void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
                   "has vertices that are not finite in the world; triangles with them are not "
                   "drawn");
     }
+    draws_something_ = true;
     objects_.push_back({.name = (name++)->with_number(instance),
                         .shape = std::move(world),
                         .material = surface.material});

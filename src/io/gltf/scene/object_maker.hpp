@@ -43,8 +43,12 @@ class ObjectMaker {
   /// allocated. Throws Error (limit) if there are too many instances.
   void make_room(const std::vector<PlacedNode>& nodes);
 
-  /// Adds an object for each surface of the node's mesh, if the node has a mesh and is visible.
+  /// Adds an object for each surface of the node's mesh, if the node has a mesh and is numbered.
+  /// The objects of a hidden node have no triangles.
   void add_mesh(const PlacedNode& placed);
+
+  /// True if any node with a surface was visible.
+  [[nodiscard]] bool draws_something() const { return draws_something_; }
 
   /// Returns the objects, which have unique names.
   [[nodiscard]] std::vector<Object> take() {
@@ -53,9 +57,9 @@ class ObjectMaker {
   }
 
  private:
-  /// Calls f(placed node, number of its instances) for each node whose mesh is drawn.
+  /// Calls f(placed node, number of its instances) for each numbered node with a mesh.
   template <class F>
-  void for_each_drawn(const std::vector<PlacedNode>& nodes, const F& f) const;
+  void for_each_numbered(const std::vector<PlacedNode>& nodes, const F& f) const;
   void choose_shared(const std::vector<PlacedNode>& nodes);
   /// True if the objects of a surface share its arrays.
   [[nodiscard]] bool is_shared(std::size_t node, const Surface& surface) const;
@@ -63,6 +67,9 @@ class ObjectMaker {
   /// `own` are the names of the node's surfaces.
   void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::vector<ObjectName>& own,
                 std::uint32_t instance);
+  /// Adds the objects of a node that is not visible.
+  void add_hidden(std::size_t node, const std::vector<ObjectName>& own,
+                  const InstanceTransforms* instances);
   [[nodiscard]] std::shared_ptr<const Placement> placed(const DMat4& world_from_mesh);
   [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);
   [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const;
@@ -79,6 +86,7 @@ class ObjectMaker {
   Sharing sharing_;
   std::vector<std::size_t> uses_;  // number of times that each mesh is drawn
   std::vector<Object> objects_;
+  bool draws_something_ = false;
   std::shared_ptr<std::vector<Placement>> placements_;  // the latest block
 };
 

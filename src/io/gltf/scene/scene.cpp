@@ -153,7 +153,7 @@ struct GltfFile::Content {
     result.scene.images = images;
     result.scene.cameras = gltf::make_cameras(own, *root.value, model, tree, nodes);
     result.scene.lights = gltf::make_lights(own, root, model, tree, nodes);
-    if (result.scene.objects.empty())
+    if (!maker.draws_something())
       own.warn(own.root(), "nothing to draw: no triangles, lines or points");
     result.warnings = own.warnings();
     lap.lap(&LoadTimes::bake);
