@@ -8,8 +8,10 @@
 namespace microtrace::tests {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 Json perspective() {
   return {{"type", "perspective"}, {"perspective", {{"yfov", 0.75}, {"znear", 0.5}}}};
@@ -81,12 +83,29 @@ TEST(GltfCamera, NamesAreUniqueAndInTreeOrder) {
   EXPECT_THAT(names, ElementsAre("Eye", "Inner", "Lens", "Eye (2)"));
 }
 
+TEST(GltfCamera, ZeroScalesKeepTheOrientation) {
+  AssetBuilder asset = with_camera(perspective());
+  asset.json["nodes"][1].update({{"translation", {4, 5, 6}}, {"rotation", {1, 0, 0, 0}}});
+  asset.json["nodes"].push_back(
+      {{"children", {1}}, {"translation", {1, 2, 3}}, {"rotation", {0, 1, 0, 0}}});
+  asset.json["scenes"][0]["nodes"] = {0, 2};
+  for (const DVec3& scale : {DVec3(0), DVec3(1, 0, 1), DVec3(2, 3, 0)}) {
+    asset.json["nodes"][2]["scale"] = {scale.x, scale.y, scale.z};
+    const LoadedScene loaded = load(asset);
+    EXPECT_THAT(texts(loaded.warnings), IsEmpty());
+    const auto& pose = std::get<PerspectiveCamera>(loaded.scene.cameras.at(0).camera).pose;
+    EXPECT_EQ(pose.position, DVec3(1, 2, 3) + scale * DVec3(-4, 5, -6));
+    EXPECT_EQ(pose.direction, DVec3(0, 0, -1)) << scale.x;
+    EXPECT_EQ(pose.up, DVec3(0, -1, 0)) << scale.x;
+  }
+}
+
 TEST(GltfCamera, IgnoresCamerasWithoutOrientation) {
   AssetBuilder asset = with_camera(perspective());
-  asset.json["nodes"][1]["scale"] = {1, 0, 1};
+  asset.json["nodes"][1]["matrix"] = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   const LoadedScene loaded = load(asset);
   EXPECT_TRUE(loaded.scene.cameras.empty());
-  EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("/nodes/1/camera")));
+  EXPECT_THAT(texts(loaded.warnings), Contains(HasSubstr("/nodes/1/camera")));
 }
 
 }  // namespace

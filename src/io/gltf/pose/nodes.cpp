@@ -54,7 +54,7 @@ std::vector<std::size_t> NodeTree::roots() const {
   return result;
 }
 
-DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) const {
+DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose, ZeroScale zero) const {
   static const NodePose kAsInFile;
   const Model::Node& node = model_.nodes[index];
   const auto posed = pose.empty() ? pose.end() : pose.find(index);
@@ -66,8 +66,13 @@ DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) cons
       result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns if the last row differs
     return result;
   }
+  DVec3 factors = scale.value_or(node.scale);
+  if (zero == ZeroScale::as_one) {
+    for (int i = 0; i < 3; ++i)
+      if (factors[i] == 0) factors[i] = 1;
+  }
   return composed(translation.value_or(node.translation),
-                  rotation.value_or(unit_quaternion(node.rotation)), scale.value_or(node.scale));
+                  rotation.value_or(unit_quaternion(node.rotation)), factors);
 }
 
 std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_asset,
@@ -114,18 +119,18 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   return result;
 }
 
-std::vector<DMat4> NodeTree::everywhere(const DMat4& world_from_asset,
-                                        const PosedNodes& pose) const {
+std::vector<DMat4> NodeTree::everywhere(const DMat4& world_from_asset, const PosedNodes& pose,
+                                        ZeroScale zero) const {
   std::vector<DMat4> result(parents_.size());
   std::vector<std::size_t> open = roots();
   for (const std::size_t root : open) {
-    result[root] = world_from_asset * parent_from_node(root, pose);
+    result[root] = world_from_asset * parent_from_node(root, pose, zero);
   }
   while (!open.empty()) {
     const std::size_t next = open.back();
     open.pop_back();
     for (const std::size_t child : model_.nodes[next].children) {
-      result[child] = result[next] * parent_from_node(child, pose);
+      result[child] = result[next] * parent_from_node(child, pose, zero);
       open.push_back(child);
     }
   }

@@ -43,9 +43,13 @@ class NodeTree {
   [[nodiscard]] std::vector<PlacedNode> place(Asset& asset, const DMat4& world_from_asset,
                                               const PosedNodes& pose) const;
 
+  /// What a scale factor of 0 means. Animations hide meshes by such factors, which must not take
+  /// away the orientation of cameras.
+  enum class ZeroScale { kept, as_one };
+
   /// Returns the transforms of all nodes, including those outside the scene.
-  [[nodiscard]] std::vector<DMat4> everywhere(const DMat4& world_from_asset,
-                                              const PosedNodes& pose) const;
+  [[nodiscard]] std::vector<DMat4> everywhere(const DMat4& world_from_asset, const PosedNodes& pose,
+                                              ZeroScale zero = ZeroScale::kept) const;
 
   /// Returns the names of the node's ancestors and of the node, separated by slashes. Keeps at most
   /// the last 256 bytes. Nodes without a name are called node0, node1 and so on, by index.
@@ -54,7 +58,8 @@ class NodeTree {
 
  private:
   [[nodiscard]] std::vector<std::size_t> roots() const;
-  [[nodiscard]] DMat4 parent_from_node(std::size_t node, const PosedNodes& pose) const;
+  [[nodiscard]] DMat4 parent_from_node(std::size_t node, const PosedNodes& pose,
+                                       ZeroScale zero = ZeroScale::kept) const;
 
   const Model& model_;
   std::vector<std::optional<std::size_t>> parents_;  // parent of each node; nothing for roots

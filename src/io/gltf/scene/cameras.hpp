@@ -11,11 +11,13 @@
 
 namespace microtrace::io::gltf {
 
-/// Returns the cameras of these nodes in order, with the properties in `root`. Omits, with a
-/// warning, cameras whose node has no valid position and orientation because of a zero scale or
-/// numbers beyond float64.
+/// Returns the cameras of these nodes in order, with the properties in `root`. For orientations,
+/// scale factors of 0 count as 1. Omits, with a warning, cameras whose node has no valid position
+/// and orientation because of a singular matrix or numbers beyond float64.
 [[nodiscard]] std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root,
                                                     const Model& model, const NodeTree& tree,
-                                                    const std::vector<PlacedNode>& nodes);
+                                                    const std::vector<PlacedNode>& nodes,
+                                                    const DMat4& world_from_asset,
+                                                    const PosedNodes& pose);
 
 }  // namespace microtrace::io::gltf

@@ -151,7 +151,8 @@ struct GltfFile::Content {
     gltf::add_unlit_copies(result.scene.materials, unlit);
     result.scene.textures = textures;
     result.scene.images = images;
-    result.scene.cameras = gltf::make_cameras(own, *root.value, model, tree, nodes);
+    result.scene.cameras =
+        gltf::make_cameras(own, *root.value, model, tree, nodes, world_from_asset, pose.nodes);
     result.scene.lights = gltf::make_lights(own, root, model, tree, nodes);
     if (!maker.draws_something())
       own.warn(own.root(), "nothing to draw: no triangles, lines or points");
