@@ -77,7 +77,7 @@ void RayStream::ask_outside() {
 
 bool meets_open_front(const Primitives& primitives, const std::uint32_t* open, const Ray& ray,
                       PrimitiveId id) {
-  if (open == nullptr || (open[id / 32] >> id % 32 & 1U) == 0) return false;
+  if (!is_in(open, id)) return false;
   const Object& object = primitives.object(id);
   const Triangle t = triangle_of(std::get<Mesh>(object.shape), id - primitives.first_id(id));
   const DVec3 a(t.a);

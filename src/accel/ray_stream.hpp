@@ -3,6 +3,7 @@
 
 #include "accel/build/references/duplicates.hpp"
 #include "accel/kernels/kernel.hpp"
+#include "base/bit_set.hpp"
 
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
@@ -45,8 +46,7 @@ struct MaskedTriangles {
   bool (*passes)(const void* context, std::size_t i, const Ray& ray, PrimitiveId id) = nullptr;
 
   [[nodiscard]] bool lets_pass(std::size_t i, const Ray& ray, PrimitiveId id) const {
-    return triangles != nullptr && (triangles[id / 32] >> id % 32 & 1U) != 0 &&
-           passes(context, i, ray, id);
+    return is_in(triangles, id) && passes(context, i, ray, id);
   }
 };
 

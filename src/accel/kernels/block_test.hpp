@@ -8,6 +8,7 @@
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/volume_test.hpp"
+#include "base/bit_set.hpp"
 
 namespace microtrace {
 namespace {
@@ -112,9 +113,6 @@ struct RayFromMin {
   float t_min;
 };
 
-inline bool is_in(const std::uint32_t* primitives, std::uint32_t id) {
-  return primitives != nullptr && (primitives[id / 32] >> id % 32 & 1U) != 0;
-}
 inline bool is_open_front(const TreeView& tree, std::uint32_t id) {
   return is_in(tree.open_fronts, id);
 }

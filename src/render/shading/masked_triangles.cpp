@@ -50,13 +50,13 @@ void Shading::find_masked() {
       continue;
     if (masked_.empty()) {
       take_memory(primitives_.count() / 8, "the transparent surfaces of the scene");
-      masked_.resize(primitives_.count() / 32 + 1);
+      masked_.resize(bit_set_size(primitives_.count()));
     }
     const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
     entry.first_map = opacity_.add(*entry.mesh, looks_[entry.look]);
     for (PrimitiveId id = entry.first_id; id < end; ++id) {
       if (opacity_.everywhere(entry.first_map + (id - entry.first_id)) != Opacity::visible)
-        masked_[id / 32] |= 1U << id % 32;
+        insert(masked_.data(), id);
     }
   }
   opacity_.finish();

@@ -151,7 +151,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
 void Shading::find_open_fronts() {
   const std::size_t count = primitives_.count();
   take_memory(count / 8, "the one-sided surfaces of the scene");
-  open_fronts_.resize(count / 32 + 1);
+  open_fronts_.resize(bit_set_size(count));
   for (const Entry& entry : entries_) {
     if (!looks_[entry.look].has_open_back) continue;
     if (entry.mesh == nullptr) {
@@ -164,8 +164,7 @@ void Shading::find_open_fronts() {
         open_fronts_[id / 32] = ~0U;
         id += 32;
       } else {
-        open_fronts_[id / 32] |= 1U << id % 32;
-        ++id;
+        insert(open_fronts_.data(), id++);
       }
     }
   }

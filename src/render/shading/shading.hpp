@@ -1,6 +1,7 @@
 #pragma once
 /// Material evaluation at the vertices of paths.
 
+#include "base/bit_set.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/shading/flat_triangles.hpp"
 #include "render/shading/footprint.hpp"
@@ -93,18 +94,14 @@ class Shading {
   [[nodiscard]] bool is_same_emitter(PrimitiveId a, PrimitiveId b) const {
     return primitives_.object_index(a) == primitives_.object_index(b) && is_emissive(a);
   }
-  [[nodiscard]] bool is_open_front(PrimitiveId id) const {
-    return (open_fronts_[id / 32] >> id % 32 & 1U) != 0;
-  }
+  [[nodiscard]] bool is_open_front(PrimitiveId id) const { return is_in(open_fronts(), id); }
 
   /// The triangles on which is_transparent() may be true, one bit per primitive; null if there are
   /// none.
   [[nodiscard]] const std::uint32_t* masked() const {
     return masked_.empty() ? nullptr : masked_.data();
   }
-  [[nodiscard]] bool is_masked(PrimitiveId id) const {
-    return !masked_.empty() && (masked_[id / 32] >> id % 32 & 1U) != 0;
-  }
+  [[nodiscard]] bool is_masked(PrimitiveId id) const { return is_in(masked(), id); }
   /// True if one of these triangles, which the ray hits, has no opacity there because of its alpha.
   /// The ray must not be a camera ray.
   [[nodiscard]] bool is_transparent(const Ray& ray, PrimitiveId id) const;
