@@ -18,10 +18,8 @@ namespace {
 /// How the transparent halves are made.
 enum class Holes : std::uint8_t { absent, masked, blended };
 
-/// A floor under many leaves, whose second halves are missing or transparent, in the light of the
-/// sky, a sun and a lamp.
-Scene leaves(Holes holes, bool double_sided) {
-  Scene scene;
+/// Two texels, of which the second is transparent.
+void add_half_transparent_texture(Scene& scene) {
   scene.images.push_back(std::make_shared<const Image>(
       Image{.width = 2,
             .height = 1,
@@ -32,6 +30,13 @@ Scene leaves(Holes holes, bool double_sided) {
                                         .magnification = Filter::nearest,
                                         .minification = Filter::nearest,
                                         .mip = MipFilter::none}});
+}
+
+/// A floor under many leaves, whose second halves are missing or transparent, in the light of the
+/// sky, a sun and a lamp.
+Scene leaves(Holes holes, bool double_sided) {
+  Scene scene;
+  add_half_transparent_texture(scene);
   Material leaf{.base_color = {0.3F, 0.7F, 0.2F, 1}, .double_sided = double_sided, .roughness = 1};
   if (holes != Holes::absent) {
     leaf.base_color_texture = TextureUse{};
@@ -63,6 +68,53 @@ Scene leaves(Holes holes, bool double_sided) {
   return scene;
 }
 
+/// A floor, a ceiling, and in between an emissive sheet of small triangles, every second of which
+/// is missing or transparent. `place` is the distance from the scene's center on two axes.
+Scene sheet_at(float place, Holes holes) {
+  constexpr int kEdge = 8;
+  constexpr float kSize = 0x1p-6F;
+  Scene scene;
+  add_half_transparent_texture(scene);
+  Material lamp{.base_color = {0, 0, 0, 1}, .double_sided = true, .emissive = Vec3(5)};
+  if (holes != Holes::absent) {
+    lamp.base_color_texture = TextureUse{};
+    lamp.alpha_mode = AlphaMode::mask;
+  }
+  scene.materials = {{.base_color = {0.8F, 0.8F, 0.8F, 1}, .roughness = 1}, lamp};
+  scene.objects.push_back({.shape = parallelogram({place - 2 * kSize, place, 2 * kSize},
+                                                  {4 * kSize, 0, 0}, {0, 0, -4 * kSize}),
+                           .material = 0});
+  scene.objects.push_back({.shape = parallelogram({place - 2 * kSize, place + 3 * kSize, 2 * kSize},
+                                                  {4 * kSize, 0, 0}, {0, 0, -4 * kSize}),
+                           .material = 0});
+  // Keeps the center of the scene at the origin.
+  scene.objects.push_back(
+      {.shape = parallelogram({-place, -place, 0}, {1, 0, 0}, {0, 0, -1}), .material = 0});
+  Mesh sheet;
+  sheet.uv_sets.emplace_back();
+  const auto corner = [place](int i, int k) {
+    const auto at = [](int n) { return kSize * (2 * static_cast<float>(n) / kEdge - 1); };
+    return Vec3(place + at(i), place + kSize, at(k));
+  };
+  const auto add = [&](const Vec3(&corners)[3], bool is_hole) {
+    if (is_hole && holes == Holes::absent) return;
+    const auto first = static_cast<std::uint32_t>(sheet.positions.size());
+    for (const Vec3& p : corners) {
+      sheet.positions.push_back(p);
+      sheet.uv_sets[0].push_back({is_hole ? 0.75F : 0.25F, 0.5F});
+    }
+    sheet.triangles.push_back({first, first + 1, first + 2});
+  };
+  for (int i = 0; i < kEdge; ++i) {
+    for (int k = 0; k < kEdge; ++k) {
+      add({corner(i, k), corner(i, k + 1), corner(i + 1, k)}, k % 2 != 0);
+      add({corner(i + 1, k), corner(i, k + 1), corner(i + 1, k + 1)}, k % 2 == 0);
+    }
+  }
+  scene.objects.push_back({.shape = sheet, .material = 1});
+  return scene;
+}
+
 /// The fraction of pixels that differ by more than rounding.
 double differing(const Film& a, const Film& b) {
   const std::vector<DVec3> x = pixels_of(a), y = pixels_of(b);
@@ -90,6 +142,23 @@ TEST(MaskedPaths, PassHolesAsIfTheyWereAbsent) {
             << static_cast<int>(backfaces);
       }
     }
+  }
+}
+
+// Far from the center, the sampled point of a light is rounded so much that rays often pass beside
+// its triangle: they hit a transparent neighbor, or what is behind the light.
+TEST(MaskedPaths, LoseNoLightBesideSmallTriangles) {
+  const auto mean = [](float place, Holes holes) {
+    const PerspectiveCamera camera{.pose = {.position = {place, place + 0x1p-7F, 0x1p-3F},
+                                            .direction = glm::normalize(DVec3(0, -0.01, -0.1)),
+                                            .up = {0, 1, 0}},
+                                   .vertical_fov = 0.1};
+    const Shot shot{.size = {.width = 16, .height = 8}, .samples = 16384, .max_depth = 2};
+    return mean_of(shoot(sheet_at(place, holes), camera, shot)).y;
+  };
+  const double expected = mean(2, Holes::absent);
+  for (const Holes holes : {Holes::absent, Holes::masked}) {
+    for (const float place : {2.0F, 768.0F}) EXPECT_NEAR(mean(place, holes) / expected, 1, 3e-3);
   }
 }
 

@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::uint32_t kNoTarget = LightSamples<kShadingLanes>::kNoTarget;
 
+/// The end of rays that are aimed at a point of an emissive surface at t = 1. Because of rounding,
+/// rays may pass beside the surface, and end behind it. The distance is greater than nearly all
+/// errors of float32, so the kernels know which hits are before the end.
+constexpr float kBehindTarget = 1 + 0x1p-7F;
+
 }  // namespace
 
 void ShadowRays::Group::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from,
@@ -31,11 +36,10 @@ void ShadowRays::Group::add(const ShadingKernels& kernels, Lanes lanes, const Sh
 void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLanes& from) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Lanes aimed = 0;
-  // A punctual light is at t = 1. An emissive triangle is hit at about t = 1. Two loops, because
-  // compilers vectorize only the first one.
+  // Two loops, because compilers vectorize only the first one.
   for (int lane = 0; lane < kShadingLanes; ++lane) {
-    const bool has_target = from.samples.target[lane] != kNoTarget;
-    t_max_[lane] = has_target | (from.samples.is_far[lane] != 0) ? kInfinity : 1;
+    const float end = from.samples.target[lane] != kNoTarget ? kBehindTarget : 1;
+    t_max_[lane] = from.samples.is_far[lane] != 0 ? kInfinity : end;
   }
   for (int lane = 0; lane < kShadingLanes; ++lane)
     aimed |= Lanes{from.samples.target[lane] != kNoTarget} << lane;
@@ -77,9 +81,9 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
   tracer.closest(aimed, blockers.filter(aimed_.rays.target), std::span(hits_).first(aimed_.count));
   for (std::size_t i = 0; i < aimed_.count; ++i) {
     const PrimitiveId target = aimed_.rays.target[i];
-    if (hits_[i] == target)
+    if (hits_[i] == target || hits_[i] == kNoPrimitive)
       add(aimed_.rays, i, 1);
-    else if (hits_[i] != kNoPrimitive)
+    else
       add_rest(aimed_.rays, aimed, i, target);
   }
   free_.count = aimed_.count = 0;

@@ -36,7 +36,7 @@ float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, c
     hit = bvh.next(ray, *hit);
     ++beyond;
   }
-  return hit || !target ? transmittance : 0;
+  return transmittance;
 }
 
 }  // namespace microtrace

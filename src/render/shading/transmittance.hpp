@@ -56,9 +56,9 @@ class LightBlockers {
   const std::uint32_t* targets_ = nullptr;
 };
 
-/// The fraction of light that passes all surfaces on a ray before its t_max or its target; 0 if the
-/// ray misses its target. `hit` is the ray's nearest hit. If `passes_backs`, light passes through
-/// the backs of one-sided surfaces. `beyond` counts the calls of Bvh::next.
+/// The fraction of light that passes all surfaces on a ray before its t_max or its target. `hit` is
+/// the ray's nearest hit. If `passes_backs`, light passes through the backs of one-sided surfaces.
+/// `beyond` counts the calls of Bvh::next.
 [[nodiscard]] float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs,
                                   const Ray& ray, std::optional<Hit> hit,
                                   const std::optional<PrimitiveId>& target, std::uint64_t& beyond,
