@@ -47,6 +47,7 @@
 #include <microtrace/segments.hpp>
 #include <microtrace/shape.hpp>
 #include <microtrace/shared_handle.hpp>
+#include <microtrace/short_vector.hpp>
 #include <microtrace/shutter.hpp>
 #include <microtrace/sidecar.hpp>
 #include <microtrace/spawn.hpp>

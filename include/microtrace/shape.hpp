@@ -16,6 +16,7 @@
 #include <microtrace/export.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/placement.hpp>
+#include <microtrace/short_vector.hpp>
 
 #include <array>
 #include <cstddef>
@@ -23,7 +24,6 @@
 #include <memory>
 #include <utility>
 #include <variant>
-#include <vector>
 
 namespace microtrace {
 
@@ -73,7 +73,7 @@ struct Mesh {
   Array<Vec4> tangents{};  ///< xyz: unit tangent t; w is 1 or -1: bitangent = w (n x t)
   /// Sets of texture coordinates; a set may be empty. (0, 0) is the upper left corner of the image,
   /// and v points down.
-  std::vector<Array<Vec2>> uv_sets{};
+  ShortVector<Array<Vec2>> uv_sets{};
   Array<Vec4> colors{};  ///< linear Rec. 709 and alpha; multiplied with the material
   /// Line segments between vertices, or points if both ends are the same vertex. Segments have no
   /// area, so no ray hits them; render() draws them one pixel wide with widen_segments().

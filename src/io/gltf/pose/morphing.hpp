@@ -24,7 +24,7 @@ inline constexpr std::size_t kLeastDisplacements = 64;
 /// Morphed attributes, which replace the mesh's own. An attribute is empty if no target changes it.
 struct Morphed {
   std::vector<DVec3> positions{}, normals{}, tangents{};  ///< not normalized
-  std::vector<Array<Vec2>> uv_sets{};
+  ShortVector<Array<Vec2>> uv_sets{};
   std::vector<Vec4> colors{};
 };
 

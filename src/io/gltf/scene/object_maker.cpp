@@ -29,6 +29,9 @@ constexpr std::size_t kMostCopied = std::size_t{1} << 20;
 /// The size of an object, its placement, and the hash of its name.
 constexpr std::size_t kBytesOfObject = sizeof(Object) + sizeof(Placement) + sizeof(std::size_t);
 
+// A scene may have millions of objects.
+static_assert(sizeof(Object) <= 104);
+
 /// The size of what a name has besides the path. Instances of a node share it.
 constexpr std::size_t kBytesOfName = 128;
 
