@@ -80,6 +80,7 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   if (!options.fast) presplit(references);
   references.store(std::move(placed));
   if (references.cells.empty()) sort(references, pool);
+  references.order_stored();
   BinaryTree binary =
       build_binary_tree(std::move(references), options.fast ? kBinsForPreview : kMaxBins, pool);
   if (binary.ids.empty()) {

@@ -214,7 +214,7 @@ class Builder {
     Set set = of_cells;
     set.of_cells = false;
     set.references = std::span(subtree.references).first(set.node->count());
-    cells_.copy(of_cells.references, set.references.data());
+    cells_.take(of_cells.references, set.references.data());
     set.centroids = {};
     for (const Reference& r : set.references) set.centroids.include(centroid(r.box));
     return set;

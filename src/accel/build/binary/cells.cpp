@@ -64,10 +64,15 @@ std::uint32_t Cells::size(std::span<const Reference> cells) const {
   return sum;
 }
 
-void Cells::copy(std::span<const Reference> cells, Reference* to) const {
+void Cells::take(std::span<const Reference> cells, Reference* to) {
   ReferenceReader reader(references_);
   for (const Reference& cell : cells) {
-    for (std::size_t i = begin(cell); i < end(cell); ++i) *to++ = reader(references_.items, i);
+    for (std::size_t i = begin(cell); i < end(cell); ++i) {
+      *to++ = reader(references_.items, i);
+      const CodedItem& item = references_.items[i];
+      if (item.is_stored()) used_stored_(item.number(), 1);
+    }
+    used_items_(begin(cell), end(cell) - begin(cell));
   }
 }
 

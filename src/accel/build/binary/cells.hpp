@@ -5,6 +5,7 @@
 
 #include "accel/build/references/references.hpp"
 #include "accel/build/worker_pool.hpp"
+#include "base/release.hpp"
 
 #include <span>
 
@@ -16,7 +17,7 @@ namespace microtrace::build {
 /// upper levels.
 class Cells {
  public:
-  /// Takes sorted references.
+  /// Takes sorted references, of which the stored ones are in the order of the items.
   Cells(References references, WorkerPool& pool);
 
   /// One reference for each cell: its box, total weight, and its index instead of an id.
@@ -25,8 +26,9 @@ class Cells {
   /// Returns the number of references in several cells.
   [[nodiscard]] std::uint32_t size(std::span<const Reference> cells) const;
 
-  /// Writes the references of several cells to `to`.
-  void copy(std::span<const Reference> cells, Reference* to) const;
+  /// Writes the references of several cells to `to` and releases their memory. Each cell can be
+  /// taken once. Threads may call this at the same time for different cells.
+  void take(std::span<const Reference> cells, Reference* to);
 
  private:
   // Replaces each large cell by one cell for each of its references.
@@ -40,6 +42,8 @@ class Cells {
   }
 
   References references_;
+  Release<CodedItem> used_items_{references_.items};
+  Release<Reference> used_stored_{references_.stored};
   PageVector<Reference> cells_;
 };
 

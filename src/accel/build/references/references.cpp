@@ -151,4 +151,16 @@ void References::store(PageVector<Reference> references) {
   cells.clear();
 }
 
+void References::order_stored() {
+  PageVector<Reference> ordered;
+  ordered.reserve(stored.size());
+  for (CodedItem& item : items) {
+    if (!item.is_stored()) continue;
+    const auto number = static_cast<std::uint32_t>(ordered.size());
+    ordered.push_back(stored[item.number()]);
+    item.set_number(number);
+  }
+  stored = std::move(ordered);
+}
+
 }  // namespace microtrace::build

@@ -25,6 +25,7 @@ class CodedItem {
 
   [[nodiscard]] bool is_stored() const { return (tagged_code_ & 1U) != 0; }
   [[nodiscard]] std::uint32_t number() const { return number_; }
+  void set_number(std::uint32_t number) { number_ = number; }
   /// A position along a space-filling curve and a mark. Both are the same for triangles with the
   /// same vertices. The mark distinguishes most other triangles with the same box, such as the two
   /// halves of a parallelogram.
@@ -60,6 +61,8 @@ struct References {
 
   /// Stores references and adds their items.
   void store(PageVector<Reference> references);
+  /// Moves the stored references to the order of the items.
+  void order_stored();
   /// Removes the items for which f(item) is true.
   template <class F>
   void remove_if(const F& f) {

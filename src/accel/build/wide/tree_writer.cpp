@@ -61,9 +61,9 @@ class Writer {
       return;
     }
     Places size = collect_jobs(root);
+    job_nodes_ = ++size.nodes;
     pool.run(jobs_.size(), [&](std::size_t i) { jobs_[i].size = size_below(*jobs_[i].node); });
     for (const Job& job : jobs_) size += job.size;
-    ++size.nodes;
     reserve(size);
     cursor.next.nodes = 1;
     tree_.root = 0;
@@ -195,8 +195,9 @@ class Writer {
       if (is_job(node, child)) {
         Job& job = jobs_[job_++];
         job.begin = cursor.next;
+        job.begin.nodes = job_nodes_;
         job.slot = slots[i];
-        cursor.next.nodes += job.size.nodes;
+        job_nodes_ += job.size.nodes;
         cursor.next.others += job.size.others;
         cursor.next.instances += job.size.instances;
       } else {
@@ -279,7 +280,8 @@ class Writer {
   std::span<const PrimitiveId> ids_;
   std::uint32_t triangle_weight_ = kTriangleWeight;
   std::vector<Job> jobs_;
-  std::size_t job_ = 0;  // the next job that write_node will visit
+  std::size_t job_ = 0;        // the next job that write_node will visit
+  std::size_t job_nodes_ = 0;  // where its nodes begin
 };
 
 }  // namespace

@@ -11,9 +11,9 @@ namespace microtrace::build {
 /// (limit) if the tree is too large for its references.
 ///
 /// In memory, the inner children of a node are consecutive, followed by the subtree of the first,
-/// the subtree of the second, and so on. Leaves are in the same order, but those right below nodes
-/// with very many primitives come first. A node's children are therefore on one page, usually the
-/// page of the node itself, and a small subtree is a short range.
+/// the subtree of the second, and so on. Nodes with very many primitives and their children come
+/// first, and so do the leaves right below them. A node's children are therefore on one page,
+/// usually the page of the node itself, and a small subtree is a short range.
 void write_tree(BinaryTree& planned, const Primitives& primitives, const Instances& instances,
                 WorkerPool& pool, Tree& tree);
 
