@@ -15,18 +15,17 @@ namespace microtrace {
 
 Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const SurfaceFinder& finder,
                    SharedTables& tables)
-    : scene_(scene), primitives_(primitives), finder_(finder), colors_(scene.textures.size()) {
+    : scene_(scene),
+      primitives_(primitives),
+      finder_(finder),
+      none_(static_cast<std::uint32_t>(scene.materials.size())),
+      colors_(scene.textures.size()) {
   for (const Material& material : scene.materials)
     for (const bool has_colors : {false, true}) entries_.push_back(entry_of(material, has_colors));
   for (const bool has_colors : {false, true}) entries_.push_back(entry_of({}, has_colors));
-  const auto none = static_cast<std::uint32_t>(scene.materials.size());
-  entry_of_object_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     const Material& material = material_of(scene, object);
     if (material.base_color_texture) make_map(material.base_color_texture->texture, tables);
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    const bool has_colors = mesh != nullptr && !mesh->colors.empty();
-    entry_of_object_.push_back(2 * object.material.value_or(none) + (has_colors ? 1 : 0));
   }
 }
 

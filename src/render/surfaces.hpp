@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <variant>
 #include <vector>
 
 namespace microtrace {
@@ -86,8 +87,11 @@ class Surfaces {
     Visibility visibility;
   };
 
-  [[nodiscard]] const Entry& entry_at(std::size_t object) const {
-    return entries_[entry_of_object_[object]];
+  [[nodiscard]] const Entry& entry_at(std::size_t index) const {
+    const Object& object = scene_.objects[index];
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    const bool has_colors = mesh != nullptr && !mesh->colors.empty();
+    return entries_[2 * object.material.value_or(none_) + (has_colors ? 1 : 0)];
   }
   [[nodiscard]] static Entry entry_of(const Material& material, bool has_colors);
   void make_map(std::uint32_t index, SharedTables& tables);
@@ -100,7 +104,7 @@ class Surfaces {
   const SurfaceFinder& finder_;
   // By material, then for objects without a material; each for meshes without and with colors.
   std::vector<Entry> entries_;
-  std::vector<std::uint32_t> entry_of_object_;
+  std::uint32_t none_;  // stands for objects without a material
   // By texture; nothing for textures that are white or not needed.
   std::vector<std::optional<TextureMap>> colors_;
 };

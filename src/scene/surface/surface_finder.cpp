@@ -31,6 +31,11 @@ constexpr std::array<std::uint32_t, 3> kCorners{0, 1, 2};
 /// Stands for a placed mesh.
 constexpr std::uint32_t kPlaced = std::numeric_limits<std::uint32_t>::max();
 
+bool is_placed(const Object& object) {
+  const auto* mesh = std::get_if<Mesh>(&object.shape);
+  return mesh != nullptr && mesh->placement;
+}
+
 MeshArrays arrays_of(const Triangle& triangle) {
   static_assert(sizeof(Triangle) == 3 * sizeof(Vec3));
   return {.positions = &triangle.a, .corners = kCorners.data()};
@@ -78,11 +83,11 @@ void set(SurfaceBatch& batch, std::size_t i, const SurfaceInteraction& at) {
 }  // namespace
 
 SurfaceFinder::SurfaceFinder(const Primitives& primitives) : primitives_(primitives) {
-  const std::vector<Object>& objects = primitives.scene().objects;
+  std::span<const Object> objects = primitives.scene().objects;
+  while (!objects.empty() && is_placed(objects.back())) objects = objects.first(objects.size() - 1);
   mesh_of_object_.reserve(objects.size());
   for (const Object& object : objects) {
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh != nullptr && mesh->placement) {
+    if (is_placed(object)) {
       mesh_of_object_.push_back(kPlaced);
       continue;
     }
@@ -127,7 +132,7 @@ void SurfaceFinder::find(std::span<const Ray> rays, Hits hits, const SurfacePart
   for_each(primitives_, hits, [&](std::size_t i, std::size_t object, PrimitiveId primitive) {
     batch.object[i] = static_cast<std::uint32_t>(object);
     batch.primitive[i] = primitive;
-    const std::uint32_t mesh = mesh_of_object_[object];
+    const std::uint32_t mesh = object < mesh_of_object_.size() ? mesh_of_object_[object] : kPlaced;
     if (mesh == kPlaced) {
       if (!placed) placed = std::make_unique<std::array<PlacedTriangle, kSurfaceLanes>>();
       (*placed)[i].set(std::get<Mesh>(objects[object].shape), primitive);

@@ -42,7 +42,8 @@ class SurfaceFinder {
   // The meshes of the scene's objects. There may be millions of placed meshes, whose arrays need a
   // transform; they have no elements. The first element stands for shapes without triangles.
   std::vector<MeshArrays> meshes_{{}};
-  std::vector<std::uint32_t> mesh_of_object_;  // indices into meshes_, or kPlaced
+  // Indices into meshes_, or kPlaced. Ends with the last object that is not a placed mesh.
+  std::vector<std::uint32_t> mesh_of_object_;
 };
 
 }  // namespace microtrace
