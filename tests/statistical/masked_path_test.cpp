@@ -72,7 +72,7 @@ Scene leaves(Holes holes, bool double_sided) {
 /// is missing or transparent. `place` is the distance from the scene's center on two axes.
 Scene sheet_at(float place, Holes holes) {
   constexpr int kEdge = 8;
-  constexpr float kSize = 0x1p-6F;
+  constexpr float kHalf = 0x1p-6F;
   Scene scene;
   add_half_transparent_texture(scene);
   Material lamp{.base_color = {0, 0, 0, 1}, .double_sided = true, .emissive = Vec3(5)};
@@ -81,11 +81,11 @@ Scene sheet_at(float place, Holes holes) {
     lamp.alpha_mode = AlphaMode::mask;
   }
   scene.materials = {{.base_color = {0.8F, 0.8F, 0.8F, 1}, .roughness = 1}, lamp};
-  scene.objects.push_back({.shape = parallelogram({place - 2 * kSize, place, 2 * kSize},
-                                                  {4 * kSize, 0, 0}, {0, 0, -4 * kSize}),
+  scene.objects.push_back({.shape = parallelogram({place - 2 * kHalf, place, 2 * kHalf},
+                                                  {4 * kHalf, 0, 0}, {0, 0, -4 * kHalf}),
                            .material = 0});
-  scene.objects.push_back({.shape = parallelogram({place - 2 * kSize, place + 3 * kSize, 2 * kSize},
-                                                  {4 * kSize, 0, 0}, {0, 0, -4 * kSize}),
+  scene.objects.push_back({.shape = parallelogram({place - 2 * kHalf, place + 3 * kHalf, 2 * kHalf},
+                                                  {4 * kHalf, 0, 0}, {0, 0, -4 * kHalf}),
                            .material = 0});
   // Keeps the center of the scene at the origin.
   scene.objects.push_back(
@@ -93,8 +93,8 @@ Scene sheet_at(float place, Holes holes) {
   Mesh sheet;
   sheet.uv_sets.emplace_back();
   const auto corner = [place](int i, int k) {
-    const auto at = [](int n) { return kSize * (2 * static_cast<float>(n) / kEdge - 1); };
-    return Vec3(place + at(i), place + kSize, at(k));
+    const auto at = [](int n) { return kHalf * (2 * static_cast<float>(n) / kEdge - 1); };
+    return Vec3(place + at(i), place + kHalf, at(k));
   };
   const auto add = [&](const Vec3(&corners)[3], bool is_hole) {
     if (is_hole && holes == Holes::absent) return;

@@ -10,6 +10,7 @@
 #include "support/lane_tests.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -214,12 +215,13 @@ TEST_P(ShadingKernelsTest, LanesAreAppendedInOrder) {
       for (float& x : column) x = random.number();
     for (auto& column : to) std::ranges::fill(column, -1.0F);
     const std::uint32_t lanes = round == 0 ? 0xffff : random.bits() & random.bits() & 0xffff;
+    const bool fills_lanes = random.number() < 0.5F;
+    const auto count = static_cast<std::size_t>(std::popcount(lanes));
     const std::size_t first = random.bits() % (2 * kShadingLanes),
-                      end = random.bits() % kShadingLanes;
+                      end = random.bits() % (kShadingLanes - (fills_lanes ? count : 0) + 1);
     const ColumnCopy columns[] = {{from[0], to[0]}, {from[1], to[1]}};
-    const bool has_room = random.number() < 0.5F;
     GetParam()->append(columns, 2,
-                       {.lanes = lanes, .from = first, .to = end, .has_room = has_room});
+                       {.lanes = lanes, .from = first, .to = end, .fills_lanes = fills_lanes});
     for (int column = 0; column < 2; ++column) {
       std::size_t place = end;
       for (std::size_t lane = 0; lane < kShadingLanes; ++lane) {
@@ -228,7 +230,7 @@ TEST_P(ShadingKernelsTest, LanesAreAppendedInOrder) {
         }
       }
       // Other elements remain unchanged, except for those that may be overwritten.
-      const std::size_t after = has_room ? end + kShadingLanes : place;
+      const std::size_t after = fills_lanes ? place : end + kShadingLanes;
       for (std::size_t k = 0; k < 2 * kShadingLanes; ++k) {
         if (k < end || k >= after) {
           ASSERT_EQ(to[column][k], -1);
