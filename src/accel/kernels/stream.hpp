@@ -36,8 +36,7 @@ class StreamWalk {
                            fallback(flight));
         next = next_after_leaf(flight);
       });
-      if constexpr (kInstances)
-        for_each(instances_, [&](Flight& flight, ChildRef& next) { meet_instance(flight, next); });
+      if constexpr (kInstances) meet_instances();
       for (int k = 0; k < finished_.size; ++k) finish(finished_.slot[k]);
     }
   }
@@ -78,12 +77,28 @@ class StreamWalk {
     const TriangleBlock* block;
   };
 
+  [[nodiscard]] const Instance& instance_at(ChildRef child) const {
+    return tree_.instances[child - child_ref::kFirstInstance];
+  }
+
+  // Processes all rays at instances in two loops: the first prefetches the matrices for the second.
+  void meet_instances() {
+    for (int k = 0; k < instances_.size; ++k) {
+      const ChildRef child = next_[instances_.slot[k]];
+      if (child == kInstanceEnd) continue;
+      const double* const matrix = instance_at(child).scene_from_mesh;
+      __builtin_prefetch(matrix);
+      __builtin_prefetch(matrix + 11);
+    }
+    for_each(instances_, [&](Flight& flight, ChildRef& next) { meet_instance(flight, next); });
+  }
+
   // Enters an instance, or leaves it if all of its subtrees have been visited.
   void meet_instance(Flight& flight, ChildRef& next) {
     if (next == kInstanceEnd) {
       flight.scope = Scope(tree_);
     } else {
-      const Instance& instance = tree_.instances[next - child_ref::kFirstInstance];
+      const Instance& instance = instance_at(next);
       if (enter(instance, flight.ray, flight.inner)) {
         flight.scope = Scope(instance);
         flight.stack.push_instance_end();
@@ -226,9 +241,7 @@ class StreamWalk {
     std::uintptr_t begin = place.begin;
     if constexpr (kInstances) {
       if (is_instance(child)) {
-        const char* const instance =
-            reinterpret_cast<const char*>(tree_.instances + (child - child_ref::kFirstInstance));
-        __builtin_prefetch(instance);
+        __builtin_prefetch(&instance_at(child));
         return;
       }
       const std::uintptr_t begins[2] = {reinterpret_cast<std::uintptr_t>(scope.nodes),
