@@ -71,9 +71,26 @@ TEST(GltfLights, HiddenNodesHaveNone) {
   EXPECT_THAT(load(asset).scene.lights, IsEmpty());
 }
 
+TEST(GltfLights, ZeroScalesKeepTheDirection) {
+  AssetBuilder asset =
+      lit({{{"type", "directional"}}, {{"type", "spot"}, {"spot", Json::object()}}});
+  asset.json["nodes"][1]["scale"] = asset.json["nodes"][2]["scale"] = {0, 0, 0};
+  const LoadedScene scene = load(asset);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  ASSERT_THAT(scene.scene.lights, SizeIs(2));
+  EXPECT_NEAR(std::get<DirectionalLight>(scene.scene.lights[0].light).direction.y, 1, 1e-15);
+  const auto& spot = std::get<SpotLight>(scene.scene.lights[1].light);
+  EXPECT_NEAR(spot.direction.y, 1, 1e-15);
+  EXPECT_EQ(spot.position, DVec3(1, 2, 3));
+}
+
 TEST(GltfLights, IgnoresLightsWithoutDirection) {
   AssetBuilder asset = lit({{{"type", "directional"}}, {{"type", "point"}}});
-  asset.json["nodes"][1]["scale"] = asset.json["nodes"][2]["scale"] = {0, 0, 0};
+  for (const std::size_t node : {1, 2}) {
+    const Json extensions = asset.json["nodes"][node]["extensions"];
+    asset.json["nodes"][node] = {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}},
+                                 {"extensions", extensions}};
+  }
   const LoadedScene scene = load(asset);
   ASSERT_THAT(scene.scene.lights, SizeIs(1));
   EXPECT_TRUE(std::holds_alternative<PointLight>(scene.scene.lights[0].light));

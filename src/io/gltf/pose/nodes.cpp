@@ -175,4 +175,11 @@ std::string head(std::string_view text, std::size_t size) {
   return std::string(text.substr(0, size));
 }
 
+DMat4 UnflattenedNodes::at(const PlacedNode& placed) {
+  if (all_.empty()) all_ = tree_.everywhere(world_from_asset_, pose_, NodeTree::ZeroScale::as_one);
+  DMat4 result = all_[placed.node];
+  result[3] = placed.world_from_node[3];
+  return result;
+}
+
 }  // namespace microtrace::io::gltf

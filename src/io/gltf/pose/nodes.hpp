@@ -44,7 +44,7 @@ class NodeTree {
                                               const PosedNodes& pose) const;
 
   /// What a scale factor of 0 means. Animations hide meshes by such factors, which must not take
-  /// away the orientation of cameras.
+  /// away the orientation of cameras and lights.
   enum class ZeroScale { kept, as_one };
 
   /// Returns the transforms of all nodes, including those outside the scene.
@@ -63,6 +63,23 @@ class NodeTree {
 
   const Model& model_;
   std::vector<std::optional<std::size_t>> parents_;  // parent of each node; nothing for roots
+};
+
+/// The transforms of nodes if scale factors of 0 count as 1. Computed when they are first needed.
+class UnflattenedNodes {
+ public:
+  /// All arguments must outlive this object.
+  UnflattenedNodes(const NodeTree& tree, const DMat4& world_from_asset, const PosedNodes& pose)
+      : tree_(tree), world_from_asset_(world_from_asset), pose_(pose) {}
+
+  /// Returns the transform of a node, with its actual position.
+  [[nodiscard]] DMat4 at(const PlacedNode& placed);
+
+ private:
+  const NodeTree& tree_;
+  const DMat4& world_from_asset_;
+  const PosedNodes& pose_;
+  std::vector<DMat4> all_;
 };
 
 /// Returns at most `size` bytes from the start of UTF-8 text. Never splits a character.

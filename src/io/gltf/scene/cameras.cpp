@@ -46,20 +46,13 @@ Camera camera_of(const JsonValue& camera, const Pose& pose) {
 
 std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root, const Model& model,
                                       const NodeTree& tree, const std::vector<PlacedNode>& nodes,
-                                      const DMat4& world_from_asset, const PosedNodes& posed) {
+                                      UnflattenedNodes& unflattened) {
   std::vector<NamedCamera> result;
-  std::vector<DMat4> unflattened;  // transforms without scales of 0, if a camera needs them
   for (const PlacedNode& placed : nodes) {
     const std::optional<std::size_t> index = model.nodes[placed.node].camera;
     if (!index) continue;
     std::optional<Pose> pose = pose_of(placed.world_from_node);
-    if (!pose) {
-      if (unflattened.empty())
-        unflattened = tree.everywhere(world_from_asset, posed, NodeTree::ZeroScale::as_one);
-      DMat4 axes = unflattened[placed.node];
-      axes[3] = placed.world_from_node[3];
-      pose = pose_of(axes);
-    }
+    if (!pose) pose = pose_of(unflattened.at(placed));
     if (!pose) {
       asset.warn(asset.element("nodes", placed.node).member("camera"),
                  "has no valid position and orientation; the camera is left out");

@@ -17,7 +17,6 @@ namespace microtrace::io::gltf {
 [[nodiscard]] std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root,
                                                     const Model& model, const NodeTree& tree,
                                                     const std::vector<PlacedNode>& nodes,
-                                                    const DMat4& world_from_asset,
-                                                    const PosedNodes& pose);
+                                                    UnflattenedNodes& unflattened);
 
 }  // namespace microtrace::io::gltf

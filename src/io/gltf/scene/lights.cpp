@@ -72,7 +72,8 @@ std::optional<Light> placed(const JsonValue& light, const DMat4& world_from_node
 }  // namespace
 
 std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Model& model,
-                                    const NodeTree& tree, const std::vector<PlacedNode>& nodes) {
+                                    const NodeTree& tree, const std::vector<PlacedNode>& nodes,
+                                    UnflattenedNodes& unflattened) {
   std::vector<NamedLight> result;
   const std::optional<Element> all = extension(root, kExtensionName);
   if (!all) return result;
@@ -83,6 +84,7 @@ std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Mod
     const Element light =
         lights.item(index(asset, *reference, "light", lights.value->items().size()));
     std::optional<Light> in_world = placed(*light.value, node.world_from_node);
+    if (!in_world) in_world = placed(*light.value, unflattened.at(node));
     if (!in_world) {
       asset.warn(reference->member("light"),
                  "has an unknown type, or no valid position or direction; the light is left out");

@@ -11,10 +11,12 @@
 namespace microtrace::io::gltf {
 
 /// Returns the lights of visible nodes in node order, with the properties in `root`. A light has
-/// the name of its node or, if the node has none, its own. The node's scale has no effect. Omits,
-/// with a warning, lights without a valid position or direction. Throws Error (invalid_scene).
+/// the name of its node or, if the node has none, its own. The node's scale has no effect, also
+/// where it is 0. Omits, with a warning, lights without a valid position or direction. Throws Error
+/// (invalid_scene).
 [[nodiscard]] std::vector<NamedLight> make_lights(Asset& asset, const Element& root,
                                                   const Model& model, const NodeTree& tree,
-                                                  const std::vector<PlacedNode>& nodes);
+                                                  const std::vector<PlacedNode>& nodes,
+                                                  UnflattenedNodes& unflattened);
 
 }  // namespace microtrace::io::gltf

@@ -151,9 +151,9 @@ struct GltfFile::Content {
     gltf::add_unlit_copies(result.scene.materials, unlit);
     result.scene.textures = textures;
     result.scene.images = images;
-    result.scene.cameras =
-        gltf::make_cameras(own, *root.value, model, tree, nodes, world_from_asset, pose.nodes);
-    result.scene.lights = gltf::make_lights(own, root, model, tree, nodes);
+    gltf::UnflattenedNodes unflattened(tree, world_from_asset, pose.nodes);
+    result.scene.cameras = gltf::make_cameras(own, *root.value, model, tree, nodes, unflattened);
+    result.scene.lights = gltf::make_lights(own, root, model, tree, nodes, unflattened);
     if (!maker.draws_something())
       own.warn(own.root(), "nothing to draw: no triangles, lines or points");
     result.warnings = own.warnings();
