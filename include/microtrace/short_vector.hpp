@@ -28,12 +28,18 @@ class ShortVector {
   ShortVector(const ShortVector& other)
       : ShortVector(other.size(), [&](std::size_t i) -> const T& { return other[i]; }) {}
   ShortVector(ShortVector&& other) noexcept : list_(std::exchange(other.list_, nullptr)) {}
-  ShortVector& operator=(const ShortVector& other) { return *this = ShortVector(other); }
+  ShortVector& operator=(const ShortVector& other) {
+    *this = ShortVector(other);
+    return *this;
+  }
   ShortVector& operator=(ShortVector&& other) noexcept {
     std::swap(list_, other.list_);
     return *this;
   }
-  ShortVector& operator=(std::initializer_list<T> values) { return *this = ShortVector(values); }
+  ShortVector& operator=(std::initializer_list<T> values) {
+    *this = ShortVector(values);
+    return *this;
+  }
   ~ShortVector() {
     for (T& value : *this) value.~T();
     ::operator delete(list_);

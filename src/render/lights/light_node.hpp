@@ -102,7 +102,7 @@ struct LightNodes {
 
   /// Loads the nodes with these indices.
   LightNodes(const LightNode* nodes, const std::uint32_t (&indices)[N]) {
-    constexpr int kColumns = 8;  // the two halves of a node are rows
+    constexpr std::size_t kColumns = 8;  // the two halves of a node are rows
     static_assert(offsetof(LightNode, cone) == kColumns * sizeof(float) &&
                   sizeof(LightNode) == 2 * kColumns * sizeof(float));
     std::uint32_t rows[N];
