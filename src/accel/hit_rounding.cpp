@@ -5,6 +5,7 @@
 #include "accel/resolve/packet_resolver.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace microtrace {
 namespace {
@@ -68,15 +69,18 @@ struct RoundedT {
 template <class Resolve>
 void write_hits(const std::uint32_t* ids, const std::uint8_t* order, const RoundedT& rounded,
                 const Resolve& resolve, std::span<std::optional<Hit>> hits) {
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const std::uint32_t id = ids[i];
+  if (rounded.certain != 0) {
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      hits[order[i]] = Hit{.id = ids[i], .t = rounded.t[i]};
+  }
+  const std::uint64_t all = ~std::uint64_t{0} >> (kHitBatch - hits.size());
+  for (std::uint64_t left = all & ~rounded.certain; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
     std::optional<Hit>& hit = hits[order[i]];
-    if ((rounded.certain >> i & 1U) != 0)
-      hit = Hit{.id = id, .t = rounded.t[i]};
-    else if (id != kNoPrimitive)
-      hit = resolve(i, id);
-    else
+    if (ids[i] == kNoPrimitive)
       hit.reset();
+    else
+      hit = resolve(i, ids[i]);
   }
 }
 
@@ -109,11 +113,10 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
              hits.first(count));
 }
 
-void round_hits(const PacketResolver& resolver, const Kernels& kernels, const TreeView* tree,
-                const KernelPacket& packet, std::span<std::optional<Hit>> hits) {
+void round_hits(const PacketResolver& resolver, const Kernels& kernels, const KernelPacket& packet,
+                std::span<std::optional<Hit>> hits) {
   alignas(64) float t[kPacketRays];
-  const std::uint64_t certain =
-      tree != nullptr ? kernels.round_t_of_packet(*tree, packet, t) : std::uint64_t{0};
+  const std::uint64_t certain = kernels.round_t_of_packet(packet, t);
   const auto resolve = [&](std::size_t i, PrimitiveId id) { return resolver.hit(i, id); };
   write_hits(packet.best_id, packet.order, {.certain = certain, .t = t}, resolve, hits);
 }

@@ -27,8 +27,8 @@ struct FoundHits {
 void round_hits(const Primitives& primitives, const Kernels& kernels, const FoundHits& found,
                 std::span<std::optional<Hit>> hits);
 
-/// Sets the hit of each ray of a packet to its nearest one. `tree` is null if there is none.
-void round_hits(const PacketResolver& resolver, const Kernels& kernels, const TreeView* tree,
-                const KernelPacket& packet, std::span<std::optional<Hit>> hits);
+/// Sets the hit of each ray of a packet to its nearest one.
+void round_hits(const PacketResolver& resolver, const Kernels& kernels, const KernelPacket& packet,
+                std::span<std::optional<Hit>> hits);
 
 }  // namespace microtrace

@@ -225,5 +225,28 @@ TEST(TraversalOfADeepTree, StreamsEqualSingleRays) {
   EXPECT_LT(found, rays.size());
 }
 
+// Each ray of a packet meets several triangles that the tree does not sort by distance. Their
+// number exceeds that of the triangles that a packet keeps.
+TEST(TraversalOfManyLayers, PacketsEqualTestingEveryPrimitive) {
+  constexpr int kLayers = 12;
+  Random random(47);
+  Scene scene;
+  std::vector<Ray> rays;
+  for (int i = 0; i < 64; ++i) {
+    const Vec3 d(static_cast<float>(i % 8) - 3.5F, static_cast<float>(i / 8) - 3.5F, 16);
+    rays.push_back({.o = Vec3(0), .d = d});
+    for (int layer = 0; layer < kLayers; ++layer) {
+      const Vec3 middle = d * (1 + 0.001F * static_cast<float>(random.unit()));
+      const Triangle triangle{middle + Vec3(-0.2F, -0.2F, 0), middle + Vec3(0.3F, -0.2F, 0),
+                              middle + Vec3(-0.2F, 0.3F, 0)};
+      scene.objects.push_back({.name = "", .shape = triangle});
+    }
+  }
+  const Primitives primitives(scene);
+  Answers expected;
+  for (const Ray& ray : rays) expected.push_back(by_asking_all(primitives, ray));
+  with_each_kernel([&] { check_calls(Bvh(scene), rays, expected); });
+}
+
 }  // namespace
 }  // namespace microtrace

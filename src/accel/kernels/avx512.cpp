@@ -1,6 +1,7 @@
 #include "accel/kernels/near/touching.hpp"
 #include "accel/kernels/packet/packet.hpp"
 #include "accel/kernels/packet/packet_rays.hpp"
+#include "accel/kernels/packet/packet_rounding.hpp"
 #include "accel/kernels/packet/packet_shapes.hpp"
 #include "accel/kernels/round_t.hpp"
 #include "accel/kernels/stream_queries.hpp"

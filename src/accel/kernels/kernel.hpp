@@ -88,23 +88,21 @@ struct Beam {
 
 inline constexpr int kHitBatch = kPacketRays;
 
-/// The vertices of triangles that rays hit, stored in one array per coordinate. Elements without a
-/// hit may have any values.
-struct alignas(64) HitTriangles {
-  float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];
-};
-
-/// Hits of triangles.
-struct HitBatch : HitTriangles {
+/// Hits of triangles. Elements without a hit may have any values.
+struct alignas(64) HitBatch {
+  float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];  ///< vertices
   const float *o[3], *d[3];  ///< origins and directions, within the kernels' limits
   float t[kHitBatch];        ///< resulting parameters
 };
 
-/// Stands for "no slot". The slot of a triangle in the tree is its block's index times kWidth plus
-/// its lane.
-inline constexpr std::uint32_t kNoSlot = ~0U;
-/// Stands for the slot of an instance's triangle, which is not in the tree.
-inline constexpr std::uint32_t kPlacedSlot = ~1U;
+/// Triangles that are or were the nearest hits of a packet's rays.
+struct alignas(64) PacketHits {
+  static constexpr std::uint32_t kMost = 2 * kPacketRays;
+  static constexpr std::uint32_t kNone = ~0U;  ///< stands for no index
+
+  float a[3][kMost], b[3][kMost], c[3][kMost];  ///< vertices
+  std::uint32_t count;
+};
 
 /// What the near_factor and the far_factor of several rays have in common, by axis.
 struct FactorBounds {
@@ -129,8 +127,9 @@ struct alignas(64) KernelPacket {
   float t_min[kPacketRays];
   float best_lo[kPacketRays], best_hi[kPacketRays];  ///< as in ClosestSoFar
   std::uint32_t best_id[kPacketRays];
-  std::uint32_t best_slot[kPacketRays];  ///< of the nearest hit, if it is a triangle in a block
-  HitTriangles placed;                   ///< those of hits whose slot is kPlacedSlot
+  /// The index of the nearest hit's triangle in `hits`. kNone if the hit is another shape.
+  std::uint32_t best_index[kPacketRays];
+  PacketHits hits;
   float o[3];
   int count;                  ///< number of rays
   const std::uint8_t* order;  ///< the index of the ray at each place, see packet_order.hpp
@@ -251,8 +250,8 @@ struct Kernels {
   /// Fills t with the exact parameters rounded to nearest. Returns the set of hits whose t is
   /// certainly right.
   std::uint64_t (*round_t)(HitBatch& hits);
-  /// Does the same for the hits of a packet that have a slot.
-  std::uint64_t (*round_t_of_packet)(const TreeView& tree, const KernelPacket& packet, float* t);
+  /// Does the same for the hits of a packet in KernelPacket::hits.
+  std::uint64_t (*round_t_of_packet)(const KernelPacket& packet, float* t);
   /// Finds all primitives with a point in each query's box. May return a primitive twice. May also
   /// return triangles of which only the bounding boxes overlap the query's box, and all
   /// non-triangle primitives of a leaf that touches the box.

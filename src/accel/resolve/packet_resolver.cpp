@@ -12,7 +12,7 @@ namespace {
 void put(KernelPacket& packet, std::size_t i, const ClosestSoFar& best) {
   packet.best_lo[i] = best.lo;
   packet.best_hi[i] = best.hi;
-  if (packet.best_id[i] != best.id) packet.best_slot[i] = kNoSlot;
+  if (packet.best_id[i] != best.id) packet.best_index[i] = PacketHits::kNone;
   packet.best_id[i] = best.id;
 }
 

@@ -94,9 +94,15 @@ class OneTriangle {
     const std::vector<Ray> rays(kPacketRays, ray_);
     KernelPacket tile;
     ASSERT_TRUE(fill_packet(rays, kernels, tile));
-    std::fill(tile.best_slot, tile.best_slot + kPacketRays, 0U);
+    for (int k = 0; k < 3; ++k) {
+      tile.hits.a[k][0] = triangle_.a[k];
+      tile.hits.b[k][0] = triangle_.b[k];
+      tile.hits.c[k][0] = triangle_.c[k];
+    }
+    tile.hits.count = 1;
+    std::fill(tile.best_index, tile.best_index + kPacketRays, 0U);
     alignas(64) float tile_t[kPacketRays];
-    if (kernels.round_t_of_packet(tree(), tile, tile_t) != 0) {
+    if (kernels.round_t_of_packet(tile, tile_t) != 0) {
       EXPECT_EQ(tile_t[0], t);
     }
   }

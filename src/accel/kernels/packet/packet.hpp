@@ -198,10 +198,10 @@ class PacketWalk {
 
   void meet_block(std::uint32_t index, Groups groups) {
     const TriangleBlock& block = scope_.blocks[index];
-    if (scope_.instance == nullptr) return triangles_.meet(block, index, groups);
+    if (scope_.instance == nullptr) return triangles_.meet(block, groups);
     TriangleBlock placed;
     tree_.scene_block(*scope_.instance, block, placed);
-    triangles_.meet(placed, kNoBlock, groups);
+    triangles_.meet(placed, groups);
   }
 
   const TreeView& tree_;

@@ -6,63 +6,65 @@
 #include "accel/kernels/packet/packet_boxes.hpp"
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/slabs.hpp"
+#include "simd/masks.hpp"
+#include "simd/transpose.hpp"
 
 #include <cstddef>
 
 namespace microtrace {
 namespace {
 
-/// Transposes an 8 x 8 matrix.
-inline void transpose(Float<8> (&m)[8]) {
-  Float<8> pairs[8], fours[8];
-  for (int i = 0; i < 8; i += 2) {
-    pairs[i] = __builtin_shufflevector(m[i], m[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
-    pairs[i + 1] = __builtin_shufflevector(m[i], m[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
-  }
-  for (int i = 0; i < 8; i += 4) {
-    for (int k = 0; k < 2; ++k) {
-      const Float<8>&p = pairs[i + k], &q = pairs[i + k + 2];
-      fours[i + 2 * k] = __builtin_shufflevector(p, q, 0, 1, 8, 9, 4, 5, 12, 13);
-      fours[i + 2 * k + 1] = __builtin_shufflevector(p, q, 2, 3, 10, 11, 6, 7, 14, 15);
-    }
-  }
-  for (int i = 0; i < 4; ++i) {
-    m[i] = __builtin_shufflevector(fours[i], fours[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-    m[i + 4] = __builtin_shufflevector(fours[i], fours[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-  }
+/// Returns the numbers among the first four of each ray, o and t_min, whose bits aren't the same
+/// for all rays.
+inline Lanes differing_numbers(const float* rays, int count) {
+  const Int<4> first = reinterpreted<Int<4>>(load<4>(rays));
+  Int<4> difference{};
+  for (int i = 0; i < count; ++i)
+    difference |= reinterpreted<Int<4>>(load<4>(rays + 8 * static_cast<std::ptrdiff_t>(i))) ^ first;
+  return true_lanes<4>(difference != 0);
 }
 
 /// Transposes rays to one array per component. Returns false if the rays have different origins.
-inline bool read_rows(const float* rays, KernelPacket& packet) {
-  Float<8> differences{};
-  for (int i = 0; i < kPacketRays; i += 8) {
-    Float<8> column[8];
-    for (int k = 0; k < 8; ++k) {
-      const std::ptrdiff_t ray = i + k < packet.count ? packet.order[i + k] : packet.count - 1;
-      column[k] = load<8>(rays + 8 * ray);
+template <int N>
+inline bool read_rays(const float* rays, KernelPacket& packet) {
+  const Lanes differing = differing_numbers(rays, packet.count);
+  if ((differing & 7U) != 0) return false;
+  for (int i = 0; i < kPacketRays; i += N) {
+    std::uint32_t row[N];  // of d and t_max; a ray has two rows of four numbers
+    for (int lane = 0; lane < N; ++lane)
+      row[lane] = 2U * static_cast<std::uint32_t>(packet.order[i + lane]) + 1;
+    if (i + N > packet.count) {
+      const std::uint32_t last = 2U * static_cast<std::uint32_t>(packet.count - 1) + 1;
+      for (std::uint32_t& each : row) each = lesser(each, last);
     }
-    transpose(column);
-    for (int axis = 0; axis < 3; ++axis) {
-      differences = differences + magnitude(column[axis] - packet.o[axis]);
-      store<8>(packet.d[axis] + i, column[4 + axis]);
-    }
-    store<8>(packet.t_min + i, column[3]);
-    store<8>(packet.best_lo + i, column[7]);
-    store<8>(packet.best_hi + i, column[7]);
+    Float<N> column[4];
+    load_rows<N>(rays, row, column);
+    for (int axis = 0; axis < 3; ++axis) store<N>(packet.d[axis] + i, column[axis]);
+    store<N>(packet.best_lo + i, column[3]);
+    store<N>(packet.best_hi + i, column[3]);
+    store<N>(packet.t_min + i, all<N>(rays[3]));
+    if ((differing & 8U) == 0) continue;
+    for (int lane = 0; lane < N; ++lane) packet.t_min[i + lane] = rays[4 * row[lane] - 1];
   }
-  // The difference of two different float32 numbers is never 0. The comparison is false for NaN.
-  return less_equal<8>(differences, Float<8>{}) == kAllLanes<8>;
+  return true;
 }
 
-inline Beam beam_between(const float (&least)[3], const float (&greatest)[3]) {
-  Beam beam;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float center = 0.5F * least[axis] + 0.5F * greatest[axis];
-    beam.center[axis] = center;
-    beam.radius[axis] =
-        greater(greatest[axis] - center, center - least[axis]) * (1 + 0x1p-22F) + 0x1p-126F;
-  }
-  return beam;
+/// Returns the least lane of each of four vectors.
+template <int N>
+inline Float<4> least_of_each(Float<N> (&v)[4]) {
+  transpose<N>(v);
+  const Float<N> least = lesser(lesser(v[0], v[1]), lesser(v[2], v[3]));
+  float lanes[N];
+  store<N>(lanes, least);
+  Float<4> result = load<4>(lanes);
+  for (int i = 4; i < N; i += 4) result = lesser(load<4>(lanes + i), result);
+  return result;
+}
+
+inline void set_beam(float least, float greatest, int axis, Beam& beam) {
+  const float center = 0.5F * least + 0.5F * greatest;
+  beam.center[axis] = center;
+  beam.radius[axis] = greater(greatest - center, center - least) * (1 + 0x1p-22F) + 0x1p-126F;
 }
 
 template <int N>
@@ -73,22 +75,24 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
     packet.o[axis] = packet.boxes.o_of_lo[axis] = packet.boxes.o_of_hi[axis] = rays[axis];
     if (!(__builtin_fabsf(rays[axis]) <= kFarthestCoordinate)) return false;
   }
-  if (!read_rows(rays, packet)) return false;
+  if (!read_rays<N>(rays, packet)) return false;
   // The caller's next packet of rays is usually stored directly after this one.
   constexpr int kFloats = 8 * kPacketRays;
   for (int i = kFloats; i < 2 * kFloats; i += 16) __builtin_prefetch(rays + i);
   __builtin_memset(packet.best_id, 0xff, sizeof packet.best_id);
-  __builtin_memset(packet.best_slot, 0xff, sizeof packet.best_slot);
-  static_assert(kNoPrimitive == 0xffffffff && kNoSlot == 0xffffffff);
+  __builtin_memset(packet.best_index, 0xff, sizeof packet.best_index);
+  static_assert(kNoPrimitive == 0xffffffff && PacketHits::kNone == 0xffffffff);
+  packet.hits.count = 0;
 
   const F longest = all<N>(kLongestDirection), shortest = all<N>(kShortestDirection);
   Lanes suited = kAllLanes<N>;
   const F infinity = all<N>(__builtin_inff());
   F least_t_begin = infinity;
-  float tile_least[3], tile_greatest[3];
-  for (int first = 0; first < kPacketRays; first += kGroupRays) {
-    float least_d[3], greatest_d[3];
-    F least[3] = {infinity, infinity, infinity}, greatest[3] = {-infinity, -infinity, -infinity};
+  F least[3][kGroups], least_opposite[3][kGroups];  // lanes of each group's d and -d
+  for (int group = 0; group < kGroups; ++group) {
+    for (int axis = 0; axis < 3; ++axis)
+      least[axis][group] = least_opposite[axis][group] = infinity;
+    const int first = group * kGroupRays;
     for (int i = first; i < first + kGroupRays; i += N) {
       F size{};
       for (int axis = 0; axis < 3; ++axis) {
@@ -99,8 +103,8 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
         store<N>(packet.boxes.far[axis] + i, far);
         size = greater(length, size);
         suited &= less_equal<N>(length, longest);
-        least[axis] = lesser(d, least[axis]);
-        greatest[axis] = greater(d, greatest[axis]);
+        least[axis][group] = lesser(d, least[axis][group]);
+        least_opposite[axis][group] = lesser(-d, least_opposite[axis][group]);
       }
       const F t_min = load<N>(packet.t_min + i);
       const F t_begin = t_min < all<N>(kLeastBegin) ? F{} : t_min;
@@ -110,25 +114,25 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
                 less_equal<N>(t_min, all<N>(kFarthestCoordinate)) &
                 less_equal<N>(t_min, load<N>(packet.best_hi + i));
     }
-    for (int axis = 0; axis < 3; ++axis) {
-      least_d[axis] = least_of<N>(least[axis]);
-      greatest_d[axis] = greatest_of<N>(greatest[axis]);
-      tile_least[axis] = first == 0 ? least_d[axis] : lesser(least_d[axis], tile_least[axis]);
-      tile_greatest[axis] =
-          first == 0 ? greatest_d[axis] : greater(greatest_d[axis], tile_greatest[axis]);
-    }
-    packet.group_beam[first / kGroupRays] = beam_between(least_d, greatest_d);
   }
   if (suited != kAllLanes<N>) return false;
   for (int i = count; i < kPacketRays; ++i)
     packet.best_lo[i] = packet.best_hi[i] = -__builtin_inff();
-  packet.beam = beam_between(tile_least, tile_greatest);
+  float all_least[3], all_greatest[3];
   packet.d_sum = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    packet.d_sum += greater(-tile_least[axis], tile_greatest[axis]);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float<4> least_d = least_of_each<N>(least[axis]),
+                   greatest_d = -least_of_each<N>(least_opposite[axis]);
+    for (int group = 0; group < kGroups; ++group)
+      set_beam(least_d[group], greatest_d[group], axis, packet.group_beam[group]);
+    all_least[axis] = least_of<4>(least_d);
+    all_greatest[axis] = greatest_of<4>(greatest_d);
+    set_beam(all_least[axis], all_greatest[axis], axis, packet.beam);
+    packet.d_sum += greater(-all_least[axis], all_greatest[axis]);
+  }
   packet.d_sum *= 1 + 0x1p-21F;
   packet.least_t_begin = least_of<N>(least_t_begin);
-  bound_factors(tile_least, tile_greatest, packet.boxes.bounds);
+  bound_factors(all_least, all_greatest, packet.boxes.bounds);
   return true;
 }
 

@@ -49,7 +49,7 @@ std::uint64_t consider_shape(const Seen& shape, std::uint32_t id, KernelPacket& 
     store<N>(packet.best_lo + i, select<N>(nearer, lo, load<N>(packet.best_lo + i)));
     store<N>(packet.best_hi + i, select<N>(nearer, hi, load<N>(packet.best_hi + i)));
     store_where<N>(nearer, id, packet.best_id + i);
-    store_where<N>(nearer, kNoSlot, packet.best_slot + i);
+    store_where<N>(nearer, PacketHits::kNone, packet.best_index + i);
     store_where<N>(nearer, id, found.id + i);
     store_doubles<N>(nearer, result.lo, found.lo + i);
     store_doubles<N>(nearer, result.hi, found.hi + i);

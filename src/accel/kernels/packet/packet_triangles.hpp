@@ -12,23 +12,20 @@
 namespace microtrace {
 namespace {
 
-/// Stands for the index of a block that is not in the tree.
-inline constexpr std::uint32_t kNoBlock = ~0U;
-
 template <int N>
 class PacketTriangles {
  public:
   PacketTriangles(KernelPacket& packet, const PacketFallback& slow)
       : packet_(packet), slow_(slow) {}
 
-  /// Updates the nearest hits of these groups' rays. `index` is the block's index, or kNoBlock.
-  void meet(const TriangleBlock& block, std::uint32_t index, Groups groups) {
+  /// Updates the nearest hits of these groups' rays.
+  void meet(const TriangleBlock& block, Groups groups) {
+    forget_indices();
     const PacketView<kViewLanes> view(block, packet_, groups);
     for_each_group(groups, [&](int group) {
       if (view.seen[group] == 0) return;
       const int first = group * kGroupRays;
-      for (int i = first; i < first + kGroupRays; i += N)
-        meet_triangles(view, group, i, block, index);
+      for (int i = first; i < first + kGroupRays; i += N) meet_triangles(view, group, i, block);
     });
   }
 
@@ -38,7 +35,7 @@ class PacketTriangles {
 
   // Tests the triangles that are not culled for this group of rays against the rays [i, i + N).
   void meet_triangles(const PacketView<kViewLanes>& view, int group, int i,
-                      const TriangleBlock& block, std::uint32_t index) {
+                      const TriangleBlock& block) {
     const F dx = load<N>(packet_.d[0] + i), dy = load<N>(packet_.d[1] + i),
             dz = load<N>(packet_.d[2] + i);
     for (Lanes lanes = view.seen[group]; lanes != 0; lanes &= lanes - 1) {
@@ -61,13 +58,9 @@ class PacketTriangles {
                    .size = size,
                    .height_error = view.height_error[k],
                    .size_error = view.size_error[k]},
-                  maybe, certain, i, {block, k, slot(index, k)});
+                  maybe, certain, i, {block, k});
       }
     }
-  }
-
-  static std::uint32_t slot(std::uint32_t block, int lane) {
-    return block == kNoBlock ? kPlacedSlot : block * kWidth + static_cast<std::uint32_t>(lane);
   }
 
   struct Quotient {
@@ -77,7 +70,6 @@ class PacketTriangles {
   struct Candidate {
     const TriangleBlock& block;
     int lane;
-    std::uint32_t slot;
   };
 
   // Processes the rays [i, i + N) and one triangle. Rays in `maybe` may pass inside its edges; rays
@@ -103,11 +95,7 @@ class PacketTriangles {
       store<N>(packet_.best_lo + i, select<N>(nearer, lo, best_lo));
       store<N>(packet_.best_hi + i, select<N>(nearer, hi, best_hi));
       store_where<N>(nearer, id, packet_.best_id + i);
-      store_where<N>(nearer, triangle.slot, packet_.best_slot + i);
-      if (triangle.slot == kPlacedSlot) {
-        for (Lanes lanes = nearer; lanes != 0; lanes &= lanes - 1)
-          keep_vertices(triangle, i + first_lane(lanes));
-      }
+      store_where<N>(nearer, index_of(triangle), packet_.best_index + i);
     }
     for (Lanes lanes = maybe & ~nearer & ~farther; lanes != 0; lanes &= lanes - 1) {
       const int ray = i + first_lane(lanes);
@@ -135,22 +123,59 @@ class PacketTriangles {
     packet_.best_hi[ray] = best.hi;
     if (best.id != id) return;
     packet_.best_id[ray] = id;
-    packet_.best_slot[ray] = triangle.slot;
-    if (triangle.slot == kPlacedSlot) keep_vertices(triangle, ray);
+    packet_.best_index[ray] = index_of(triangle);
   }
 
-  // Transforming an instance's triangle again to round t would take longer.
-  void keep_vertices(const Candidate& triangle, int ray) {
+  void forget_indices() { __builtin_memset(index_, 0xff, sizeof index_); }
+
+  // Returns the index of a triangle of the block in PacketHits, to which it is added if necessary.
+  std::uint32_t index_of(const Candidate& triangle) {
+    std::uint32_t& index = index_[triangle.lane];
+    if (index == PacketHits::kNone) {
+      if (packet_.hits.count == PacketHits::kMost) drop_farther_hits();
+      index = add(triangle);
+    }
+    return index;
+  }
+
+  std::uint32_t add(const Candidate& triangle) {
+    PacketHits& hits = packet_.hits;
     const auto slot = static_cast<std::size_t>(triangle.lane);
     for (int axis = 0; axis < 3; ++axis) {
-      packet_.placed.a[axis][ray] = coordinate(triangle.block, 0, slot, axis);
-      packet_.placed.b[axis][ray] = coordinate(triangle.block, 1, slot, axis);
-      packet_.placed.c[axis][ray] = coordinate(triangle.block, 2, slot, axis);
+      hits.a[axis][hits.count] = coordinate(triangle.block, 0, slot, axis);
+      hits.b[axis][hits.count] = coordinate(triangle.block, 1, slot, axis);
+      hits.c[axis][hits.count] = coordinate(triangle.block, 2, slot, axis);
     }
+    return hits.count++;
+  }
+
+  // Removes triangles that are no ray's nearest hit.
+  __attribute__((noinline)) void drop_farther_hits() {
+    PacketHits& hits = packet_.hits;
+    std::uint32_t to[PacketHits::kMost];
+    __builtin_memset(to, 0xff, sizeof to);
+    for (const std::uint32_t index : packet_.best_index) {
+      if (index != PacketHits::kNone) to[index] = 0;
+    }
+    hits.count = 0;
+    for (std::uint32_t from = 0; from < PacketHits::kMost; ++from) {
+      if (to[from] == PacketHits::kNone) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        hits.a[axis][hits.count] = hits.a[axis][from];
+        hits.b[axis][hits.count] = hits.b[axis][from];
+        hits.c[axis][hits.count] = hits.c[axis][from];
+      }
+      to[from] = hits.count++;
+    }
+    for (std::uint32_t& index : packet_.best_index) {
+      if (index != PacketHits::kNone) index = to[index];
+    }
+    forget_indices();
   }
 
   KernelPacket& packet_;
   const PacketFallback& slow_;
+  std::uint32_t index_[kWidth];  // of the block's triangles in PacketHits, or kNone
 };
 
 }  // namespace
