@@ -26,6 +26,8 @@ struct Checkpoint {
   /// Other channels of the picture. compute_channels() computes some of them from the sums, so
   /// their values are not saved.
   std::vector<Channel> channels{};
+  /// Names of the channels that are only there for denoising, sorted; the picture lacks them.
+  std::vector<std::string> only_for_denoising{};
   /// The file from which it was loaded, which errors name; empty if there is none.
   std::filesystem::path file{};
 };
@@ -43,7 +45,8 @@ MICROTRACE_EXPORT void save_checkpoint(const Checkpoint& checkpoint,
 /// `checkpoint` has no samples yet. Throws Error (usage) if they belong to a different picture, or
 /// if some of them are already present. The message names the differences between the pictures. The
 /// display becomes that of the checkpoint with the first samples, so checkpoints may be added in
-/// any order. The channels are those of the checkpoints with the most requested samples.
+/// any order. The channels are those of the checkpoints with the most requested samples; those for
+/// denoising become channels of the picture if they are in one of these checkpoints.
 MICROTRACE_EXPORT void add_samples(Checkpoint& checkpoint, Checkpoint other,
                                    const std::filesystem::path& path);
 

@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace microtrace {
 
@@ -66,7 +67,11 @@ MICROTRACE_EXPORT void add_denoise_features(RenderOptions& options);
 /// Returns true if channels of kDenoiseFeatures are missing.
 [[nodiscard]] MICROTRACE_EXPORT bool lacks_denoise_features(std::span<const Channel> channels);
 
-/// Returns true for the channels of kDenoiseFeatures.
-[[nodiscard]] MICROTRACE_EXPORT bool is_denoise_feature(const Channel& channel);
+/// Returns the names of the channels of kDenoiseFeatures that `wanted` doesn't contain, sorted.
+[[nodiscard]] MICROTRACE_EXPORT std::vector<std::string> channels_only_for_denoising(
+    std::span<const Channel> channels, std::span<const SampledAov> wanted);
+
+/// Removes the channels of these names, which are sorted.
+MICROTRACE_EXPORT void remove_channels(Film& film, std::span<const std::string> names);
 
 }  // namespace microtrace

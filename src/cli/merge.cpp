@@ -58,10 +58,7 @@ FilmContents contents_of(const Checkpoint& all, bool denoises) {
                 "--denoise: the checkpoints lack the channels for denoising; give --denoise to "
                 "the runs with --shard too");
   }
-  const bool has_channels = std::ranges::any_of(all.channels, [&](const Channel& channel) {
-    return !(denoises && is_denoise_feature(channel));
-  });
-  return {.alpha = all.has_alpha, .channels = has_channels};
+  return {.alpha = all.has_alpha, .channels = all.channels.size() > all.only_for_denoising.size()};
 }
 
 /// Merges the checkpoints of one picture. Returns false if none exists and samples may be missing.
@@ -94,10 +91,8 @@ bool merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
     std::fprintf(stderr, "warning: %s: %s\n", printable(place).c_str(), missing.c_str());
   if (!picture.empty()) {
     Film film = picture_of(all);
-    if (denoiser != nullptr) {
-      denoiser->denoise(film, {.memory = &budget});
-      std::erase_if(film.channels, is_denoise_feature);
-    }
+    if (denoiser != nullptr) denoiser->denoise(film, {.memory = &budget});
+    remove_channels(film, all.only_for_denoising);
     apply_display(film, arguments.display);
     save_image(film, picture, arguments.ppm);
   }

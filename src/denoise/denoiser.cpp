@@ -204,11 +204,7 @@ Film Denoiser::render(const PreparedScene& scene, const Camera& camera, ImageSiz
   }
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   if (options.times != nullptr) options.times->denoise = time.count();
-  std::erase_if(film.channels, [&](const Channel& channel) {
-    return is_denoise_feature(channel) && std::ranges::none_of(wanted, [&](SampledAov aov) {
-             return is_channel_of(channel, aov);
-           });
-  });
+  remove_channels(film, channels_only_for_denoising(film.channels, wanted));
   return film;
 }
 
@@ -226,9 +222,23 @@ bool lacks_denoise_features(std::span<const Channel> channels) {
   });
 }
 
-bool is_denoise_feature(const Channel& channel) {
-  return std::ranges::any_of(kDenoiseFeatures,
-                             [&](SampledAov aov) { return is_channel_of(channel, aov); });
+std::vector<std::string> channels_only_for_denoising(std::span<const Channel> channels,
+                                                     std::span<const SampledAov> wanted) {
+  std::vector<std::string> names;
+  for (const Channel& channel : channels) {
+    const auto has_channel = [&](SampledAov aov) { return is_channel_of(channel, aov); };
+    if (std::ranges::any_of(kDenoiseFeatures, has_channel) &&
+        std::ranges::none_of(wanted, has_channel))
+      names.push_back(channel.name);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+void remove_channels(Film& film, std::span<const std::string> names) {
+  std::erase_if(film.channels, [&](const Channel& channel) {
+    return std::ranges::binary_search(names, channel.name);
+  });
 }
 
 }  // namespace microtrace

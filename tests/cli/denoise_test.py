@@ -69,6 +69,21 @@ class Denoise(ProgramTest):
         message = self.draw("merge", "c", "--denoise", "-o", "x.png", scene=None, code=2)
         self.assertIn("--shard", message)
 
+    def test_shards_keep_the_channels_that_were_asked_for(self):
+        asked = ["--aov", "depth,denoise_albedo,emission"]
+        for shard in "12":
+            self.draw(*LIGHT, *asked, "--denoise", "--shard", f"{shard}/2", "--checkpoint", shard)
+            self.draw(*LIGHT, "--denoise", "--shard", f"{shard}/2", "--checkpoint", f"bare{shard}")
+        self.draw("merge", "1", "--checkpoint", "a", "--partial", "-q", scene=None)
+        for options in (["--denoise"], []):
+            self.draw(*LIGHT, *asked, *options, "-o", "whole.exr", "-q")
+            for parts in ("12", "2a", ["1", "bare2"]):
+                self.draw("merge", *parts, *options, "-o", "merged.exr", "-q", scene=None)
+                self.assertEqual(self.bytes_of("merged.exr"), self.bytes_of("whole.exr"))
+            self.draw(*LIGHT, *options, "-o", "whole.png", "-q")
+            self.draw("merge", "bare1", "bare2", *options, "-o", "merged.png", "-q", scene=None)
+            self.assertEqual(self.bytes_of("merged.png"), self.bytes_of("whole.png"))
+
     def test_noisy_features(self):
         # The library refuses features that were filtered for a picture whose features have no noise, and vice versa.
         for option in (["--aperture", "0.1", "--focus", "3"], ["--ground"]):

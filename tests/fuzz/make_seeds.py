@@ -308,7 +308,7 @@ def checkpoint(ranges, compressed=False, width=3, height=2):
     """Returns a checkpoint in the format of src/io/checkpoint/checkpoint.cpp, without the digest at the end."""
     identity = b"--seed\t1\n"
     samples = sum(last - first for first, last in ranges)
-    head = b"microtrace samples\n" + struct.pack("<II", 4, len(identity)) + identity
+    head = b"microtrace samples\n" + struct.pack("<II", 5, len(identity)) + identity
     head += struct.pack("<4IdI", 1, 1, 0, samples, 0.5, 1) + struct.pack("<6I3f", width, height, 0, 0, width, height, 0, 0.25, 1)
     head += struct.pack("<I", len(ranges)) + b"".join(struct.pack("<2I", *r) for r in ranges)
     pixel = b"".join(struct.pack("<Q", word) for word in (0, samples, 1 << 63, samples, 5, 2, samples << 46, 0, 9, samples))
@@ -320,10 +320,11 @@ def checkpoint(ranges, compressed=False, width=3, height=2):
         runs = b"".join((pixels << 3 | 1 << 1 | (i + 1 == len(pixel))).to_bytes(3, "little") + bytes([byte])
                         for i, byte in enumerate(pixel))
         block = b"\x28\xb5\x2f\xfd\x60" + struct.pack("<H", len(block) - 256) + runs
-    channels = [(b"depth.Z", 1, bytes(4 * pixels)), (b"id.instance", 2, bytes(4 * pixels)), (b"variance.Y", 0, b"")]
+    channels = [(b"depth.Z", 1, 0, bytes(4 * pixels)), (b"id.instance", 2, 0, bytes(4 * pixels)),
+                (b"variance.Y", 0, 0, b""), (b"emission.R", 1, 1, bytes(4 * pixels))]
     tail = struct.pack("<I", len(channels))
-    for name, kind, values in channels:
-        tail += struct.pack("<I", len(name)) + name + struct.pack("<I", kind)
+    for name, kind, is_only_for_denoising, values in channels:
+        tail += struct.pack("<I", len(name)) + name + struct.pack("<2I", kind, is_only_for_denoising)
         tail += struct.pack("<I", len(values)) + values if values else b""
     return head + struct.pack("<I", len(block)) + block + tail
 

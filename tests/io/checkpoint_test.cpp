@@ -39,6 +39,7 @@ Checkpoint example() {
       {.name = "depth.Z", .values = std::vector<float>{1, -0.0F, kInfinity, 2, 3, 1e-40F}},
       {.name = "samples.N", .values = std::vector<float>(6, 7)},
       {.name = "id.instance", .values = std::vector<std::uint32_t>{0, 1, 0xffffffff, 3, 4, 5}}};
+  checkpoint.only_for_denoising = {"id.instance"};
   return checkpoint;
 }
 
@@ -72,6 +73,7 @@ TEST_F(CheckpointFile, StoresAllMembers) {
     EXPECT_EQ(read.channels[i].name, written.channels[i].name);
     EXPECT_EQ(read.channels[i].values, written.channels[i].values);
   }
+  EXPECT_EQ(read.only_for_denoising, written.only_for_denoising);
   const Film film = picture_of(read);
   EXPECT_EQ(film.channels[0].values, written.channels[0].values);
   EXPECT_EQ(film.channels[1].name, "samples.N");
@@ -85,6 +87,22 @@ TEST(Checkpoint, RefusesOtherValuesOfChannels) {
   EXPECT_NO_THROW(add_samples(sum, other, "c"));
   std::get<std::vector<float>>(other.channels[0].values)[1] = 0;
   EXPECT_THROW(add_samples(sum, other, "c"), Error);
+}
+
+TEST(Checkpoint, ShowsTheChannelsOfAllCheckpoints) {
+  const std::vector<std::string> both{"depth.Z", "id.instance"}, one{"depth.Z"};
+  const auto joined = [](const std::vector<std::string>& a, const std::vector<std::string>& b) {
+    Checkpoint sum = example(), other = example();
+    other.sums = SampleSums(sum.sums.whole, sum.sums.window, sum.sums.background);
+    sum.only_for_denoising = a;
+    other.only_for_denoising = b;
+    add_samples(sum, std::move(other), "c");
+    return sum.only_for_denoising;
+  };
+  EXPECT_EQ(joined(both, both), both);
+  EXPECT_EQ(joined(both, one), one);
+  EXPECT_EQ(joined(one, both), one);
+  EXPECT_TRUE(joined(both, {}).empty());
 }
 
 TEST_F(CheckpointFile, DetectsEveryChangedBit) {

@@ -1,5 +1,6 @@
 #include "cli/pictures/sample_files.hpp"
 
+#include <microtrace/denoise.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>
 #include <microtrace/version.h>
@@ -44,7 +45,10 @@ void add_files(Checkpoint& all, std::span<const std::filesystem::path> files, Me
     MemoryAccount temporary(memory.budget());
     const MemoryScope scope(all.sums.pixels.empty() ? memory : temporary);
     Checkpoint next = load_checkpoint(file);
-    if (!keeps_channels) next.channels.clear();
+    if (!keeps_channels) {
+      next.channels.clear();
+      next.only_for_denoising.clear();
+    }
     add_samples(all, std::move(next), file);
   }
 }
@@ -88,6 +92,7 @@ void SampleFiles::keep(const Film& film) {
   memory_.take(film.channels.size() * samples_.sums.pixels.size() * sizeof(float),
                "the channels of a checkpoint");
   samples_.channels = film.channels;
+  samples_.only_for_denoising = channels_only_for_denoising(film.channels, arguments_.aovs.sampled);
   samples_.has_lens = film.has_lens;
   samples_.has_ground = film.has_ground;
 }

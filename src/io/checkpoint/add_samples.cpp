@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -80,6 +81,13 @@ bool are_equal(const Channel& a, const Channel& b) {
   return a.values.index() == b.values.index() && std::ranges::equal(bytes(a), bytes(b));
 }
 
+/// Returns true if the picture of the checkpoint has a channel of this name.
+bool shows(const Checkpoint& checkpoint, std::string_view name) {
+  return std::ranges::find(checkpoint.channels, name, &Channel::name) !=
+             checkpoint.channels.end() &&
+         !std::ranges::binary_search(checkpoint.only_for_denoising, name);
+}
+
 /// Joins the channels of two checkpoints. Channels may depend on the number of requested samples,
 /// so those of the checkpoint with fewer are dropped. The order of channels is that of both
 /// checkpoints or, if they differ, of their names, so that the order of merging doesn't matter.
@@ -88,8 +96,14 @@ std::string join_channels(Checkpoint& ours, Checkpoint& theirs) {
   if (ours.samples > theirs.samples) return {};
   if (ours.samples < theirs.samples) {
     ours.channels = std::move(theirs.channels);
+    ours.only_for_denoising = std::move(theirs.only_for_denoising);
     return {};
   }
+  std::vector<std::string> only_for_denoising;
+  std::ranges::set_union(ours.only_for_denoising, theirs.only_for_denoising,
+                         std::back_inserter(only_for_denoising));
+  std::erase_if(only_for_denoising,
+                [&](const std::string& name) { return shows(ours, name) || shows(theirs, name); });
   const bool is_same =
       std::ranges::equal(ours.channels, theirs.channels, {}, &Channel::name, &Channel::name);
   for (Channel& channel : theirs.channels) {
@@ -100,6 +114,7 @@ std::string join_channels(Checkpoint& ours, Checkpoint& theirs) {
       return channel.name;
     }
   }
+  ours.only_for_denoising = std::move(only_for_denoising);
   if (!is_same) std::ranges::sort(ours.channels, {}, &Channel::name);
   return {};
 }
@@ -123,6 +138,7 @@ void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem
     checkpoint.display = other.display;
     checkpoint.sums = std::move(other.sums);
     checkpoint.channels = std::move(other.channels);
+    checkpoint.only_for_denoising = std::move(other.only_for_denoising);
     return;
   }
   const SampleSums &theirs = other.sums, &ours = checkpoint.sums;

@@ -27,7 +27,7 @@ namespace microtrace {
 namespace {
 
 constexpr std::string_view kMagic = "microtrace samples\n";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 36U;
 constexpr std::uint32_t kMostSamples = 65536;  // per pixel; sample ranges end at or below it
 constexpr std::uint32_t kMaxIdentity = 1U << 20U, kMaxChannels = 256, kMaxChannelName = 256;
@@ -140,7 +140,7 @@ class CheckpointWriter {
     });
   }
 
-  void write(const Channel& channel) {
+  void write(const Channel& channel, bool is_only_for_denoising) {
     const bool is_computed = is_computed_channel(channel.name);
     const bool is_float = std::holds_alternative<std::vector<float>>(channel.values);
     std::string head;
@@ -149,6 +149,7 @@ class CheckpointWriter {
     append_little(head, static_cast<std::uint32_t>(is_computed ? Values::computed
                                                    : is_float  ? Values::floats
                                                                : Values::integers));
+    append_little(head, std::uint32_t{is_only_for_denoising});
     write(head);
     if (!is_computed) std::visit([&](const auto& values) { write_blocks(values); }, channel.values);
   }
@@ -182,14 +183,19 @@ class BlocksOfFile {
     });
   }
 
-  Channel read_channel(std::size_t pixels) {
+  /// Appends a channel to those of the checkpoint.
+  void read_channel(Checkpoint& checkpoint) {
+    const std::size_t pixels = checkpoint.sums.pixels.size();
     const auto name = reader_.take(std::min(reader_.number<std::uint32_t>(), kMaxChannelName));
     const auto kind = static_cast<Values>(reader_.number<std::uint32_t>());
+    const bool is_only_for_denoising = reader_.number<std::uint32_t>() != 0;
     const bool is_known = name && !reader_.is_short() && kind <= Values::integers &&
                           is_computed_channel(*name) == (kind == Values::computed);
     if (!is_known) fail_as_damaged(path_);
-    Channel channel{.name = std::string(*name), .values = {}};
-    if (kind == Values::computed) return channel;
+    if (is_only_for_denoising) checkpoint.only_for_denoising.emplace_back(*name);
+    Channel& channel =
+        checkpoint.channels.emplace_back(Channel{.name = std::string(*name), .values = {}});
+    if (kind == Values::computed) return;
     if (reader_.left() / kLeastBlock < pixels / io::kBlockPixels) fail_as_damaged(path_);
     take_memory(pixels * sizeof(float), "the channels of a checkpoint");
     if (kind == Values::floats) {
@@ -197,7 +203,6 @@ class BlocksOfFile {
     } else {
       read(channel.values.emplace<1>(pixels));
     }
-    return channel;
   }
 
  private:
@@ -215,7 +220,9 @@ void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& 
   std::string count;
   append_little(count, static_cast<std::uint32_t>(checkpoint.channels.size()));
   file.write(count);
-  for (const Channel& channel : checkpoint.channels) file.write(channel);
+  for (const Channel& channel : checkpoint.channels) {
+    file.write(channel, std::ranges::binary_search(checkpoint.only_for_denoising, channel.name));
+  }
   file.commit();
 }
 
@@ -246,8 +253,8 @@ Checkpoint load_checkpoint(const std::filesystem::path& path) {
   blocks.read(checkpoint.sums.pixels);
   const auto channels = reader.number<std::uint32_t>();
   if (channels > kMaxChannels) fail_as_damaged(path);
-  for (std::uint32_t i = 0; i < channels; ++i)
-    checkpoint.channels.push_back(blocks.read_channel(checkpoint.sums.pixels.size()));
+  for (std::uint32_t i = 0; i < channels; ++i) blocks.read_channel(checkpoint);
+  std::ranges::sort(checkpoint.only_for_denoising);
   if (reader.is_short() || reader.left() != 0) fail_as_damaged(path);
   return checkpoint;
 }
