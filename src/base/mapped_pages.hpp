@@ -11,6 +11,9 @@ inline constexpr std::size_t kHugePage = std::size_t{1} << 21U;
 [[nodiscard]] void* map_pages(std::size_t bytes);
 void unmap_pages(void* p, std::size_t bytes) noexcept;
 
+/// Returns true if map_pages() would succeed now.
+[[nodiscard]] bool can_map_pages(std::size_t bytes) noexcept;
+
 /// Returns memory of allocate_pages() to the system, whose contents are lost. It may be used again,
 /// and must be released as before. p is the beginning of a page.
 void discard_pages(void* p, std::size_t bytes) noexcept;

@@ -66,6 +66,15 @@ void unmap_pages(void* p, std::size_t bytes) noexcept {
 #endif
 }
 
+bool can_map_pages(std::size_t bytes) noexcept {
+  try {
+    unmap_pages(map_pages(bytes), bytes);
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
 void discard_pages([[maybe_unused]] void* p, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef __linux__
   if (bytes >= kHugePage) ::madvise(p, bytes, MADV_DONTNEED);

@@ -1,6 +1,7 @@
 #include "io/image/module.hpp"
 
 #include "base/start_threads.hpp"
+#include "io/image/encode/lack_of_memory.hpp"
 #include "io/image/encode/module_picture.hpp"
 #include "io/module_function.hpp"
 
@@ -108,6 +109,7 @@ void ImageModule::encode(const Film& film, const std::string& extension,
   const int failed = encode_(&picture.get(), extension.c_str(), take_bytes, take_reason, &sinks);
   if (sinks.thrown) std::rethrow_exception(sinks.thrown);
   if (failed == 0) return;
+  if (failed == 2) throw lack_of_memory(file_);
   std::string message = "can't be encoded: ";
   message += sinks.reason;
   message += "; use .ppm, .png or .exr";

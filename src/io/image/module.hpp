@@ -39,7 +39,8 @@ class ImageModule {
   /// Error(usage) if the module can't write them.
   [[nodiscard]] MicrotraceFormat find_format(const std::string& extension) const;
 
-  /// Passes all bytes of the picture's file to `out`. Throws Error(io).
+  /// Passes all bytes of the picture's file to `out`. Throws Error: limit if memory runs out, else
+  /// io.
   void encode(const Film& film, const std::string& extension,
               const std::function<void(std::string_view)>& out) const;
 

@@ -60,8 +60,9 @@ using MicrotraceSink = void (*)(void* context, const char* bytes, std::size_t si
 /// returns 1. Otherwise returns 0.
 using MicrotraceFindFormat = int (*)(const char* extension, MicrotraceFormat* format);
 
-/// Passes the bytes of the picture's file to `out` and returns 0. If it fails, passes a reason to
-/// `error` and returns 1. The channels must match the format.
+/// Passes the bytes of the picture's file to `out` and returns 0. If memory runs out, returns 2. If
+/// it fails otherwise, passes a reason to `error` and returns 1. The channels must match the
+/// format.
 using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* extension,
                                  MicrotraceSink out, MicrotraceSink error, void* context);
 
@@ -91,7 +92,7 @@ using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, cons
 namespace microtrace::io {
 
 inline constexpr char kFindFormatName[] = "microtrace_find_format_v4";
-inline constexpr char kEncodeName[] = "microtrace_encode_v4";
+inline constexpr char kEncodeName[] = "microtrace_encode_v5";
 inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v2";
 
 }  // namespace microtrace::io

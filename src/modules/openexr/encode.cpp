@@ -11,6 +11,7 @@
 #include <ImfStringAttribute.h>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -88,7 +89,7 @@ __attribute__((visibility("default"))) int microtrace_find_format_v4(const char*
   return 1;
 }
 
-__attribute__((visibility("default"))) int microtrace_encode_v4(const MicrotracePicture* picture,
+__attribute__((visibility("default"))) int microtrace_encode_v5(const MicrotracePicture* picture,
                                                                 const char* /*extension*/,
                                                                 MicrotraceSink out,
                                                                 MicrotraceSink error,
@@ -97,6 +98,8 @@ __attribute__((visibility("default"))) int microtrace_encode_v4(const Microtrace
     const std::string bytes = encode(*picture);
     out(context, bytes.data(), bytes.size());
     return 0;
+  } catch (const std::bad_alloc&) {
+    return 2;
   } catch (const std::exception& e) {
     const std::string_view reason = e.what();
     error(context, reason.data(), reason.size());

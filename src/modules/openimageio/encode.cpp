@@ -7,6 +7,7 @@
 #include <array>
 #include <exception>
 #include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -137,7 +138,7 @@ __attribute__((visibility("default"))) int microtrace_find_format_v4(const char*
   }
 }
 
-__attribute__((visibility("default"))) int microtrace_encode_v4(const MicrotracePicture* picture,
+__attribute__((visibility("default"))) int microtrace_encode_v5(const MicrotracePicture* picture,
                                                                 const char* extension,
                                                                 MicrotraceSink out,
                                                                 MicrotraceSink error,
@@ -146,6 +147,8 @@ __attribute__((visibility("default"))) int microtrace_encode_v4(const Microtrace
     const std::vector<unsigned char> bytes = encode(*picture, extension);
     out(context, reinterpret_cast<const char*>(bytes.data()), bytes.size());
     return 0;
+  } catch (const std::bad_alloc&) {
+    return 2;
   } catch (const std::exception& e) {
     const std::string_view reason = e.what();
     error(context, reason.data(), reason.size());

@@ -1,5 +1,6 @@
 #include "io/image/decode/decode_image.hpp"
 
+#include "base/mapped_pages.hpp"
 #include "base/memory_account.hpp"
 #include "io/image/codec_abi.hpp"
 #include "io/image/decode/image_header.hpp"
@@ -35,6 +36,14 @@ void complain(void* context, const char* text) {
 /// An upper bound of a decoder's working memory in bytes per pixel, for example for coefficients of
 /// a progressive JPEG or colors of a WebP. The decoded pixels are counted separately.
 constexpr std::uint64_t kWorkOfPixel = 6;
+
+/// Returns true if a decoder may have failed because memory ran out, which most libraries report
+/// like damage. Textures would then be white.
+bool lacks_memory(const ImageHeader& header) {
+  constexpr std::uint64_t kLibraries = std::uint64_t{4} << 20U;  // for tables and input
+  const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
+  return !can_map_pages(2 * kWorkOfPixel * pixels + kLibraries);
+}
 
 void* begin(void* context, const MicrotraceImageHeader* header) {
   auto& decoding = *static_cast<Decoding*>(context);
@@ -87,7 +96,9 @@ DecodedImage decode_image(std::string_view bytes) {
   const auto decode = reinterpret_cast<MicrotraceDecode>(codec.address);
   const bool is_decoded = decode(bytes.data(), bytes.size(), &sink) != 0;
   if (decoding.failure) std::rethrow_exception(decoding.failure);
-  if (!is_decoded) decoding.result.image.reset();
+  if (!decoding.result.complaint.empty() && lacks_memory(decoding.header))
+    decoding.result.too_large = true;
+  if (!is_decoded || decoding.result.too_large) decoding.result.image.reset();
   return std::move(decoding.result);
 }
 

@@ -1,6 +1,8 @@
 #include "io/image/encode/png.hpp"
 
+#include "base/mapped_pages.hpp"
 #include "io/image/encode/eight_bits.hpp"
+#include "io/image/encode/lack_of_memory.hpp"
 #include "io/image/encode/notes.hpp"
 #include "io/module_function.hpp"
 
@@ -103,6 +105,8 @@ void PngEncoder::encode(MicrotracePng picture, const std::function<const void*(s
   picture.complain = take_reason;
   const bool done = encode_(&picture) != 0;
   if (streams.thrown) std::rethrow_exception(streams.thrown);
+  constexpr std::size_t kWork = std::size_t{1} << 20U;  // more than libpng and zlib take
+  if (!done && !can_map_pages(kWork)) throw lack_of_memory(file_);
   if (!done) throw Error(ErrorKind::io, file_, "can't be encoded: " + streams.reason);
   out(streams.bytes);
 }

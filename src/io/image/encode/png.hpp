@@ -25,7 +25,8 @@ class PngEncoder {
   explicit PngEncoder(std::string file, Speed speed = Speed::small_files);
 
   /// Passes the file to `out` in parts. It has 8 bits per sample according to the film's display
-  /// settings, and alpha if the film has it. Throws the exceptions of `out`, and Error(io).
+  /// settings, and alpha if the film has it. Throws the exceptions of `out`, and Error: limit if
+  /// memory runs out, else io.
   void encode(const Film& film, const std::function<void(std::string_view)>& out) const;
 
   /// Encodes a picture whose description lacks the callbacks. `row` returns the samples of a row.
