@@ -281,8 +281,10 @@ def render(
         integrator: "path" for path tracing or "flat" for base colors without lighting. Default: the
             scene's integrator.
         environment: replaces the scene's environment.
-        background: replaces the scene's background; linear Rec. 709.
-        transparent: omits the background and adds alpha to the color.
+        background: replaces the scene's background, also if it is the scene's environment; linear
+            Rec. 709.
+        transparent: omits the background, also if it is the scene's environment, and adds alpha to
+            the color.
         filter: the pixel filter.
         seed: random seed. Different seeds give different noise.
         max_depth: maximum path length. 1 shows only emission; 2 adds direct light.
@@ -355,6 +357,7 @@ def render(
         "spp": None if spp is None else as_integer(spp, "spp", 1, 65536),
         "integrator": method,
         "environment": environment,
+        "hides_environment": bool(transparent) or background is not None,
         "background": None if background is None else as_vector(background, "background"),
         "filter": as_text(filter, "filter"),
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),

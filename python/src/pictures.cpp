@@ -245,6 +245,11 @@ PictureOptions options_of(const Prepared& self, const nb::dict& arguments) {
       .seed = nb::cast<std::uint32_t>(arguments["seed"]),
       .environment = environment_from_python(arguments["environment"]),
   };
+  const std::optional<Environment>& of_scene = self.scene.scene().environment;
+  if (of_scene && !result.options.environment && nb::cast<bool>(arguments["hides_environment"])) {
+    result.options.environment = of_scene;
+    result.options.environment->is_background = false;
+  }
   if (!background.is_none()) {
     const auto c = nb::cast<std::array<double, 3>>(background);
     result.options.background = Vec3(DVec3(c[0], c[1], c[2]));

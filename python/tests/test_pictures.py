@@ -29,6 +29,25 @@ def run(program, *arguments):
 
 
 @pytest.mark.parametrize(
+    ("words", "options"),
+    [("transparent", {"transparent": True}), ("0.1,0.2,0.3", {"background": (0.1, 0.2, 0.3)})],
+)
+def test_backgrounds_replace_an_environment_that_is_visible(program, tmp_path, words, options):
+    scene = SCENES / "light.json"
+    path = ["--integrator", "path", "--spp", 2]
+    run(program, scene, *path, "--background", words, "-o", tmp_path / "a.exr")
+    picture = mt.render(mt.load(scene), size=SIZE, integrator="path", spp=2, **options)
+    picture.save(tmp_path / "b.exr")
+    assert (tmp_path / "b.exr").read_bytes() == (tmp_path / "a.exr").read_bytes()
+    # An environment that is given stays visible.
+    sky = mt.Environment((0.5, 0.5, 0.5), is_background=True)
+    picture = mt.render(
+        mt.load(scene), size=SIZE, integrator="path", spp=2, environment=sky, **options
+    )
+    assert (picture.color[0, 0] == ([0.5] * 3 + [1])[: picture.color.shape[-1]]).all()
+
+
+@pytest.mark.parametrize(
     "scene, options, arguments",
     [
         (KNOT, [], {}),
