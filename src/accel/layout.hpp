@@ -32,8 +32,10 @@ struct alignas(64) TriangleBlock {
   /// A block has room for this number of triangles even if they share no vertices.
   static constexpr unsigned kUnshared = 5;
 
-  float vertices[3][kVertices];     ///< x, y and z of each vertex
-  std::uint8_t corners[3][kWidth];  ///< the indices of a, b and c for each slot
+  float vertices[3][kVertices];  ///< x, y and z of each vertex
+  /// The indices of a, b and c for each slot, in the lower four bits. The upper bits of that of a
+  /// are a's number in the scene's triangle, 0 to 2.
+  std::uint8_t corners[3][kWidth];
   float largest_edge;  ///< upper bound of every |component| of e1 = fl(b - a) and e2 = fl(c - a)
   float edge_product;  ///< upper bound of every |component of e1| times |component of e2|
   std::uint32_t id[kWidth];  ///< PrimitiveIds
@@ -44,7 +46,11 @@ namespace {
 
 /// Returns a coordinate of a triangle's vertex: 0 (a), 1 (b) or 2 (c).
 inline float coordinate(const TriangleBlock& block, int vertex, std::size_t slot, int axis) {
-  return block.vertices[axis][block.corners[vertex][slot]];
+  return block.vertices[axis][block.corners[vertex][slot] % TriangleBlock::kVertices];
+}
+/// Which vertex of the scene's triangle in a slot is the block's first vertex.
+inline unsigned scene_number(const TriangleBlock& block, std::size_t slot) {
+  return block.corners[0][slot] / TriangleBlock::kVertices;
 }
 
 /// True if a slot holds a triangle.

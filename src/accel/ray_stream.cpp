@@ -102,23 +102,27 @@ void RayStream::consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) cons
   if (other) resolver.consider(*other, best);
 }
 
-Visible RayStream::visible(std::size_t i, PrimitiveId id) const {
-  if (!is_suited(i) || !masked_.lets_pass(first_ + i, ray(i), id)) return Visible::yes;
-  if (target_.duplicates.empty()) return Visible::no;
+Visible RayStream::visible(std::size_t i, PrimitiveId id, const HitWeights& at) const {
+  Visible visible = masked_.known == nullptr ? Visible::unsure
+                                             : masked_.known(masked_.context, first_ + i, id, at);
+  if (visible == Visible::unsure && is_suited(i))
+    visible = masked_.passes(masked_.context, first_ + i, ray(i), id) ? Visible::no : Visible::yes;
+  if (visible != Visible::no || target_.duplicates.empty()) return visible;
   return target_.duplicates.above(id, id) ? Visible::unsure : Visible::no;
 }
 
 StreamFallback RayStream::fallback() {
-  return {
-      .context = this,
-      .consider =
-          [](void* self, int i, std::uint32_t id, ClosestSoFar& best) {
-            static_cast<const RayStream*>(self)->consider(static_cast<std::size_t>(i), id, best);
-          },
-      .visible =
-          [](void* self, int i, std::uint32_t id) {
-            return static_cast<const RayStream*>(self)->visible(static_cast<std::size_t>(i), id);
-          }};
+  return {.context = this,
+          .consider =
+              [](void* self, int i, std::uint32_t id, ClosestSoFar& best) {
+                static_cast<const RayStream*>(self)->consider(static_cast<std::size_t>(i), id,
+                                                              best);
+              },
+          .visible =
+              [](void* self, int i, std::uint32_t id, const HitWeights& at) {
+                return static_cast<const RayStream*>(self)->visible(static_cast<std::size_t>(i), id,
+                                                                    at);
+              }};
 }
 
 void RayStream::find_closest(const Rays& these, std::span<std::optional<Hit>> hits) {

@@ -42,6 +42,10 @@ struct RayColumns {
 struct MaskedTriangles {
   const std::uint32_t* triangles = nullptr;  ///< one bit per primitive; null: there are none
   const void* context = nullptr;
+  /// What the weights alone tell about ray number i of a query, which hits primitive `id`; null
+  /// if they tell nothing.
+  Visible (*known)(const void* context, std::size_t i, PrimitiveId id,
+                   const HitWeights& at) = nullptr;
   /// True if ray number i of a query, which hits primitive `id`, passes through it.
   bool (*passes)(const void* context, std::size_t i, const Ray& ray, PrimitiveId id) = nullptr;
 
@@ -128,7 +132,7 @@ class RayStream {
   [[nodiscard]] Ray ray(std::size_t i) const { return rays_.empty() ? columns_[i] : rays_[i]; }
   [[nodiscard]] StreamFallback fallback();
   void consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) const;
-  [[nodiscard]] Visible visible(std::size_t i, PrimitiveId id) const;
+  [[nodiscard]] Visible visible(std::size_t i, PrimitiveId id, const HitWeights& at) const;
   [[nodiscard]] bool is_suited(std::size_t i) const {
     return (stream_.suited[i / 64] >> i % 64 & 1U) != 0;
   }

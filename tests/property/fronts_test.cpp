@@ -7,6 +7,7 @@
 #include "support/cases/placed_scenes.hpp"
 
 #include <microtrace/bvh.hpp>
+#include <microtrace/surface_interaction.hpp>
 
 #include <array>
 #include <cstdlib>
@@ -123,9 +124,27 @@ bool passes_at_random(const void* /*context*/, std::size_t i, const Ray& ray, Pr
   return (number * 0xc2b2ae35U >> 30U) != 0;
 }
 
+/// What check_weights() needs, and the number of weights that it has checked.
+struct Weighed {
+  const Primitives& primitives;
+  RayColumns rays;
+  mutable std::size_t count = 0;
+};
+/// Checks the weights of a hit, which it leaves to passes_at_random().
+Visible check_weights(const void* context, std::size_t i, PrimitiveId id, const HitWeights& at) {
+  const auto& weighed = *static_cast<const Weighed*>(context);
+  if (!at.are_sure) return Visible::unsure;
+  const DVec3 expected =
+      interact(weighed.primitives, weighed.rays[i], {.id = id, .t = 0}).triangle->barycentrics;
+  EXPECT_NEAR(at.second, expected.y, HitWeights::kError) << "ray " << i << ", primitive " << id;
+  EXPECT_NEAR(at.third, expected.z, HitWeights::kError) << "ray " << i << ", primitive " << id;
+  ++weighed.count;
+  return Visible::unsure;
+}
+
 /// Compares queries that pass through random open fronts and masked triangles.
 void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::size_t& passed,
-                  std::size_t& found) {
+                  std::size_t& found, std::size_t& weighed) {
   const Bvh bvh(scene);
   tracer.begin(bvh);
   const PrimitiveId count = bvh.primitives().count();
@@ -136,8 +155,6 @@ void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::si
     if (on_mesh && random.one_in(3)) open[id / 32] |= 1U << id % 32;
   }
   const bool with_open = tracer.knows_fronts() && random.one_in(2);
-  const HitFilter filter{.open_fronts = with_open ? open.data() : nullptr,
-                         .masked = {.triangles = masked.data(), .passes = passes_at_random}};
   Columns columns;
   std::vector<float> t_min;
   // More rays than a stream traces at a time.
@@ -151,6 +168,12 @@ void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::si
   }
   RayColumns rays = columns.view();
   rays.t_min = t_min.data();
+  const Weighed context{.primitives = bvh.primitives(), .rays = rays};
+  const HitFilter filter{.open_fronts = with_open ? open.data() : nullptr,
+                         .masked = {.triangles = masked.data(),
+                                    .context = &context,
+                                    .known = count % 2 == 0 ? check_weights : nullptr,
+                                    .passes = passes_at_random}};
   std::vector<PrimitiveId> closest(rays.count), any(rays.count);
   tracer.closest(rays, filter, closest);
   tracer.any(rays, filter, any);
@@ -171,34 +194,38 @@ void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::si
     passed += is_hit && !hit ? 1 : 0;
     found += hit ? 1 : 0;
   }
+  weighed += context.count;
 }
 
 TEST_P(Fronts, RaysPassThroughMaskedTriangles) {
   Random random(32);
   RayTracer tracer;
-  std::size_t passed = 0, found = 0;
+  std::size_t passed = 0, found = 0, weighed = 0;
   for (int round = 0; round < 600; ++round) {
     SCOPED_TRACE("scene " + std::to_string(round));
-    check_masked(random, tracer, random_scene(random), passed, found);
+    check_masked(random, tracer, random_scene(random), passed, found, weighed);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(passed, 400U);
   EXPECT_GT(found, 2000U);
+  EXPECT_GT(weighed, 1000U);
 }
 
 TEST_P(Fronts, RaysPassThroughMaskedTrianglesOfInstances) {
   Random random(33);
   RayTracer tracer;
-  std::size_t passed = 0, found = 0;
+  std::size_t passed = 0, found = 0, weighed = 0;
   for (int round = 0; round < 12; ++round) {
     for (const PlacementKind kind : kPlacementKinds) {
       SCOPED_TRACE("scene " + std::to_string(round));
-      check_masked(random, tracer, random_placed_scenes(random, kind).instanced, passed, found);
+      check_masked(random, tracer, random_placed_scenes(random, kind).instanced, passed, found,
+                   weighed);
       if (HasFatalFailure()) return;
     }
   }
   EXPECT_GT(passed, 400U);
   EXPECT_GT(found, 2000U);
+  EXPECT_GT(weighed, 1000U);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ struct RayFallback {
   void operator()(std::uint32_t id, ClosestSoFar& best) const {
     slow.consider(slow.context, id, best);
   }
-  [[nodiscard]] Visible visible(std::uint32_t) const { return Visible::yes; }
+  [[nodiscard]] Visible visible(std::uint32_t, const HitWeights&) const { return Visible::yes; }
 };
 /// The callbacks for one ray of a stream.
 struct StreamRayFallback {
@@ -87,8 +87,8 @@ struct StreamRayFallback {
   void operator()(std::uint32_t id, ClosestSoFar& best) const {
     slow.consider(slow.context, ray, id, best);
   }
-  [[nodiscard]] Visible visible(std::uint32_t id) const {
-    return slow.visible(slow.context, ray, id);
+  [[nodiscard]] Visible visible(std::uint32_t id, const HitWeights& at) const {
+    return slow.visible(slow.context, ray, id, at);
   }
 };
 
@@ -135,7 +135,7 @@ inline void consider(const TreeView& tree, const TriangleBlock& block, int k, co
   if (is_certain && t.lo > best.hi) return;
   bool is_nearer = is_certain && t.hi < best.lo && t.lo >= ray.t_min;
   if (is_nearer && is_masked(tree, block.id[k])) {
-    const Visible visible = fallback.visible(block.id[k]);
+    const Visible visible = fallback.visible(block.id[k], weights_at_hit(block, k, ray.o, ray.d));
     if (visible == Visible::no) return;
     is_nearer = visible == Visible::yes;
   }

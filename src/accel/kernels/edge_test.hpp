@@ -109,5 +109,36 @@ inline Within within_edges(const TriangleBlock& block, int k, const float* o, co
   return within < -bound ? Within::no : Within::unsure;
 }
 
+/// The weights at the hit of triangle k of a block. Let T be the sum of |o_i|, of the components of
+/// a, and of those of the edges, all without signs, E the sum of those of the edges, and D that of
+/// |d_i|. The errors of u and v are below 2^-48 T E D / |size|. Those of PlanePoints are greatest
+/// where t is uncertain: the error of t is below 2^-47 T E^2 / |size| and changes the weights by at
+/// most E D^2 / |size| per unit of t. PlanePoints uses the scene's first vertex, for which T and E
+/// may be twice as large. As |size| is at most E^2 D, all errors together, rounded to float32, are
+/// below kError if T E^3 D^2 is below 2^24 size^2.
+inline HitWeights weights_at_hit(const TriangleBlock& block, int k, const float* o,
+                                 const float* d) {
+  const auto [a, e1, e2] = NearTriangle(block, k, o);
+  double u = 0, v = 0, size = 0, o_sum = 0, d_sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, l = (i + 2) % 3;
+    u += (e2[j] * a[l] - e2[l] * a[j]) * d[i];
+    v += (a[j] * e1[l] - a[l] * e1[j]) * d[i];
+    size += (e1[j] * e2[l] - e1[l] * e2[j]) * d[i];
+    o_sum += __builtin_fabs(double{o[i]});
+    d_sum += __builtin_fabs(double{d[i]});
+  }
+  const double inverse = 1 / size, edges = sum_of_magnitudes(e1) + sum_of_magnitudes(e2);
+  const double scale = edges * d_sum;
+  u *= inverse;
+  v *= inverse;
+  const double weights[4] = {v, u, 1 - u - v, v};
+  const unsigned first = scene_number(block, static_cast<std::size_t>(k));
+  return {.second = static_cast<float>(weights[first + 1]),
+          .third = static_cast<float>(weights[first]),
+          .are_sure = (o_sum + sum_of_magnitudes(a) + edges) * edges * scale * scale <
+                      0x1p24 * size * size};
+}
+
 }  // namespace
 }  // namespace microtrace

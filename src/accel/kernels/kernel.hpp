@@ -176,13 +176,21 @@ struct alignas(64) KernelStream {
 /// Whether a masked triangle is visible where a ray hits it.
 enum class Visible : std::uint8_t { no, yes, unsure };
 
+/// The barycentric weights of the second and the third vertex of a triangle where a ray hits it.
+struct HitWeights {
+  static constexpr float kError = 0x1p-17F;
+
+  float second, third;
+  bool are_sure;  ///< true if the errors of both are below kError
+};
+
 /// Callbacks for hits of a stream's rays that float32 can't decide.
 struct StreamFallback {
   void* context;
   void (*consider)(void* context, int ray, std::uint32_t id, ClosestSoFar& best);
   /// Decides for a triangle of TreeView::masked that the ray certainly hits. If the result is
   /// unsure, consider() decides.
-  Visible (*visible)(void* context, int ray, std::uint32_t id) = nullptr;
+  Visible (*visible)(void* context, int ray, std::uint32_t id, const HitWeights& at) = nullptr;
 };
 
 inline constexpr std::uint32_t kOtherSlot = 1U << 31U, kIdSlot = ~0U;

@@ -203,7 +203,7 @@ class OcclusionPacketWalk {
         const Lanes begun = less_equal<N>(load<N>(stream_.t_min + at), t.lo);
         Lanes hit = maybe & test.certain & before & begun;
         if (is_masked(tree_, block.id[k])) {
-          const SeenLanes seen = seen_lanes(block.id[k], at, hit);
+          const SeenLanes seen = seen_lanes(block, k, at, hit);
           maybe &= ~seen.hidden;
           hit = seen.visible;
         }
@@ -238,10 +238,14 @@ class OcclusionPacketWalk {
   };
   // Decides for rays, starting at ray `at`, that certainly hit a masked triangle. The fallback must
   // decide in lanes that aren't returned.
-  SeenLanes seen_lanes(std::uint32_t id, int at, Lanes rays) const {
+  SeenLanes seen_lanes(const TriangleBlock& block, int k, int at, Lanes rays) const {
     SeenLanes seen{};
     for (; rays != 0; rays &= rays - 1) {
-      const Visible visible = slow_.visible(slow_.context, at + first_lane(rays), id);
+      const int ray = at + first_lane(rays);
+      const float o[3] = {stream_.o[0][ray], stream_.o[1][ray], stream_.o[2][ray]};
+      const float d[3] = {stream_.d[0][ray], stream_.d[1][ray], stream_.d[2][ray]};
+      const Visible visible =
+          slow_.visible(slow_.context, ray, block.id[k], weights_at_hit(block, k, o, d));
       const Lanes lane = rays & (~rays + 1);
       seen.visible |= visible == Visible::yes ? lane : 0;
       seen.hidden |= visible == Visible::no ? lane : 0;

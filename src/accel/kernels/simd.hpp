@@ -6,7 +6,7 @@
 namespace microtrace {
 namespace {
 
-/// Returns N of sixteen numbers, chosen by their indices.
+/// Returns N of sixteen numbers, chosen by the lower four bits of their indices.
 template <int N>
 inline Float<N> picked(const float* sixteen, const std::uint8_t* indices) {
 #if defined(__AVX2__)
@@ -29,7 +29,7 @@ inline Float<N> picked(const float* sixteen, const std::uint8_t* indices) {
   }
 #endif
   Float<N> v{};
-  for (int i = 0; i < N; ++i) set_lane(v, i, sixteen[indices[i]]);
+  for (int i = 0; i < N; ++i) set_lane(v, i, sixteen[indices[i] % 16U]);
   return v;
 }
 

@@ -8,9 +8,14 @@ namespace microtrace {
 MaskedTriangles Wave::masked() const {
   return {.triangles = shading_->masked(),
           .context = shading_,
-          .passes = [](const void* shading, std::size_t, const Ray& ray, PrimitiveId id) {
-            return static_cast<const Shading*>(shading)->is_transparent(ray, id);
-          }};
+          .known =
+              [](const void* shading, std::size_t, PrimitiveId id, const HitWeights& at) {
+                return static_cast<const Shading*>(shading)->known_visible(id, at);
+              },
+          .passes =
+              [](const void* shading, std::size_t, const Ray& ray, PrimitiveId id) {
+                return static_cast<const Shading*>(shading)->is_transparent(ray, id);
+              }};
 }
 
 void Wave::find_visible() {

@@ -13,33 +13,6 @@
 #include <glm/geometric.hpp>
 
 namespace microtrace {
-namespace {
-
-/// The weights of the vertices of a triangle at a ray's hit, without the point. Let T be the sum of
-/// |o_i|, of the components of a - o, and of those of the edges, all without signs, E the sum of
-/// those of the edges, and D that of |d_i|. The errors of the weights are below 2^-48 T E D /
-/// |size|. Those of PlanePoints are greatest where t is uncertain: the error of t is below 2^-47 T
-/// E^2 / |size| and changes the weights by at most E D^2 / |size| per unit of t. So if T E D is
-/// below 2^14 |size|, both together, rounded to float32, are below 2^-17.
-struct QuickWeights {
-  float second, third;
-  bool are_sure;
-
-  QuickWeights(const Triangle& of, const Ray& ray) {
-    const DVec3 o(ray.o), d(ray.d), first(of.a);
-    const DVec3 a = first - o, e1 = DVec3(of.b) - first, e2 = DVec3(of.c) - first;
-    const DVec3 r = glm::cross(a, d);
-    const double size = glm::dot(glm::cross(e1, e2), d), inverse = 1 / size;
-    second = static_cast<float>(glm::dot(e2, r) * inverse);
-    third = static_cast<float>(-glm::dot(e1, r) * inverse);
-    const double edges = magnitudes_sum(e1) + magnitudes_sum(e2);
-    const double all = magnitudes_sum(o) + magnitudes_sum(a) + edges;
-    are_sure = all * edges * magnitudes_sum(d) < 0x1p14 * std::abs(size);
-  }
-};
-static_assert(0x1p-17 < OpacityMaps::kTolerance);
-
-}  // namespace
 
 void Shading::find_masked() {
   for (Entry& entry : entries_) {
@@ -84,18 +57,22 @@ struct Shading::MaskedHit {
   }
 };
 
-bool Shading::is_transparent(const Ray& ray, PrimitiveId id) const {
+Visible Shading::known_visible(PrimitiveId id, const HitWeights& at) const {
+  static_assert(HitWeights::kError < OpacityMaps::kTolerance);
+  if (!at.are_sure) return Visible::unsure;
   const Entry& entry = entries_[primitives_.object_index(id)];
-  const std::size_t triangle = id - entry.first_id;
-  const QuickWeights weights(triangle_of(*entry.mesh, triangle), ray);
-  const Opacity known = weights.are_sure
-                            ? opacity_.at(entry.first_map + triangle, weights.second, weights.third)
-                            : Opacity::unknown;
-  return known == Opacity::unknown ? look_up_transparent(entry, ray, id)
-                                   : known == Opacity::transparent;
+  switch (opacity_.at(entry.first_map + (id - entry.first_id), at.second, at.third)) {
+    case Opacity::transparent:
+      return Visible::no;
+    case Opacity::visible:
+      return Visible::yes;
+    default:
+      return Visible::unsure;
+  }
 }
 
-bool Shading::look_up_transparent(const Entry& entry, const Ray& ray, PrimitiveId id) const {
+bool Shading::is_transparent(const Ray& ray, PrimitiveId id) const {
+  const Entry& entry = entries_[primitives_.object_index(id)];
   const MaskedHit hit(entry, ray, id);
   if (!hit.plane.are_sure()) return is_transparent(point(ray, {.id = id, .t = 0}).unfiltered());
   ShadingPoint point{.at = {}, .look = &looks_[entry.look]};

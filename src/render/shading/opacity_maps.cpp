@@ -11,8 +11,8 @@ namespace {
 
 /// Maps are computed for the first triangles, so that this number of cells is not exceeded. It
 /// limits the time.
-constexpr std::size_t kMostCells = std::size_t{1} << 19U;
-constexpr std::uint32_t kLeastLogSize = 2, kMostLogSize = 6;
+constexpr std::size_t kMostCells = std::size_t{1} << 21U;
+constexpr std::uint32_t kLeastLogSize = 2, kMostLogSize = 7;
 /// Triangles that are smaller, in texels, have no maps of their own.
 constexpr double kLeastExtent = 4;
 /// Larger than the relative errors of sums and products of a few float32 numbers.
@@ -182,9 +182,9 @@ OpacityMaps::Map OpacityMaps::map_of(const TriangleAlpha& triangle) {
   if (everywhere != Opacity::unknown || !(extent >= kLeastExtent)) return uniform(everywhere);
   const TriangleKey key = triangle.key();
   if (const auto known = triangles_.find(key); known != triangles_.end()) return known->second;
-  // About one texel per cell.
+  // About half a texel per cell.
   std::uint32_t log_size = kLeastLogSize;
-  while (log_size < kMostLogSize && 1U << log_size < extent) ++log_size;
+  while (log_size < kMostLogSize && 1U << log_size < 2 * extent) ++log_size;
   const std::size_t words = (std::size_t{1} << 2 * log_size) / kPerWord;
   if ((cells_.size() + words) * kPerWord > kMostCells) return uniform(Opacity::unknown);
   take_memory(words * sizeof cells_[0], "the opacity of triangles");

@@ -1,6 +1,7 @@
 #pragma once
 /// Material evaluation at the vertices of paths.
 
+#include "accel/kernels/kernel.hpp"
 #include "base/bit_set.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/shading/flat_triangles.hpp"
@@ -102,6 +103,8 @@ class Shading {
     return masked_.empty() ? nullptr : masked_.data();
   }
   [[nodiscard]] bool is_masked(PrimitiveId id) const { return is_in(masked(), id); }
+  /// Whether one of these triangles has opacity at these weights, if that is known.
+  [[nodiscard]] Visible known_visible(PrimitiveId id, const HitWeights& at) const;
   /// True if one of these triangles, which the ray hits, has no opacity there because of its alpha.
   /// The ray must not be a camera ray.
   [[nodiscard]] bool is_transparent(const Ray& ray, PrimitiveId id) const;
@@ -159,7 +162,6 @@ class Shading {
   void find_open_fronts();
   void find_masked();
   [[nodiscard]] static bool is_transparent(const ShadingPoint& point);
-  [[nodiscard]] bool look_up_transparent(const Entry& entry, const Ray& ray, PrimitiveId id) const;
   struct MaskedHit;
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
   /// True if the surface transmits no light at the point, or only diffusely, because it has no

@@ -33,7 +33,8 @@ class LightBlockers {
   [[nodiscard]] HitFilter filter(const std::uint32_t* targets = nullptr) {
     targets_ = targets;
     return {.open_fronts = open_,
-            .masked = {.triangles = shading_.masked(), .context = this, .passes = passes}};
+            .masked = {
+                .triangles = shading_.masked(), .context = this, .known = known, .passes = passes}};
   }
   /// True if a ray on which such a query has found this primitive transmits no light, unless the
   /// primitive is the target or a hidden surface. Otherwise, transmittance() decides.
@@ -44,10 +45,14 @@ class LightBlockers {
  private:
   static bool passes(const void* self, std::size_t i, const Ray& ray, PrimitiveId id) {
     const auto& blockers = *static_cast<const LightBlockers*>(self);
-    const Shading& shading = blockers.shading_;
-    const bool may_be_target =
-        blockers.targets_ != nullptr && shading.is_same_emitter(id, blockers.targets_[i]);
-    return !may_be_target && shading.is_transparent(ray, id);
+    return !blockers.may_be_target(i, id) && blockers.shading_.is_transparent(ray, id);
+  }
+  static Visible known(const void* self, std::size_t i, PrimitiveId id, const HitWeights& at) {
+    const auto& blockers = *static_cast<const LightBlockers*>(self);
+    return blockers.may_be_target(i, id) ? Visible::yes : blockers.shading_.known_visible(id, at);
+  }
+  [[nodiscard]] bool may_be_target(std::size_t i, PrimitiveId id) const {
+    return targets_ != nullptr && shading_.is_same_emitter(id, targets_[i]);
   }
 
   const Shading& shading_;

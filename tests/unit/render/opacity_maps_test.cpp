@@ -164,7 +164,7 @@ TEST(OpacityMaps, KnowOnlyWhatTheLookupFinds) {
   EXPECT_LT(unknown, 500000U);
 }
 
-// Each cell has half the size of a texel. Every other cell begins just behind the boundary of two
+// Each cell has half the size of a texel. Every other cell ends just before the boundary of two
 // texels, but the lookup rounds coordinates near 1000.
 TEST(OpacityMaps, ReckonWithTheRoundingOfTextureCoordinates) {
   std::vector<std::uint8_t> samples;
@@ -177,7 +177,7 @@ TEST(OpacityMaps, ReckonWithTheRoundingOfTextureCoordinates) {
   Material& material = scene.materials.emplace_back();
   material.alpha_mode = AlphaMode::mask;
   material.base_color_texture.emplace().texture_from_uv = {{1, 0}, {0, 1}, {1000, 0}};
-  const float end = 1.600016F;
+  const float end = 1.599984F;
   Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}};
   mesh.uv_sets.push_back({{0, 0}, {end, 0}, {0, 1}});
   scene.objects.push_back({.shape = mesh, .material = 0});

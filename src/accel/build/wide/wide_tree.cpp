@@ -14,16 +14,20 @@ float squared_length(const Vec3& v) {
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
+struct Turned {
+  Triangle triangle;
+  unsigned first;  // the previous number of the first vertex
+};
 // Rotates the vertices so that the first one is opposite the longest edge. Has no branches, because
 // they would often be mispredicted.
-Triangle turned(const Triangle& t) {
+Turned turned(const Triangle& t) {
   const float ab = squared_length(t.b - t.a), bc = squared_length(t.c - t.b),
               ca = squared_length(t.a - t.c);
   const auto is_ca = static_cast<unsigned>(ca > bc) & static_cast<unsigned>(ca >= ab);
   const auto is_ab = static_cast<unsigned>(ab > bc) & (is_ca ^ 1U);
   const unsigned first = is_ca + 2 * is_ab;
   const std::array<Vec3, 5> vertices{t.a, t.b, t.c, t.a, t.b};
-  return {vertices[first], vertices[first + 1], vertices[first + 2]};
+  return {{vertices[first], vertices[first + 1], vertices[first + 2]}, first};
 }
 
 }  // namespace
@@ -67,7 +71,7 @@ BlockFiller::BlockFiller(TriangleBlock& block) : block_(block) {
 
 bool BlockFiller::add(PrimitiveId id, const Triangle& unturned) {
   if (slots_ == kWidth) return false;
-  const Triangle t = turned(unturned);
+  const auto [t, first] = turned(unturned);
   const std::array<Vec3, 3> vertices{t.a, t.b, t.c};
   std::array<unsigned, 3> corners{};
   unsigned count = vertices_;
@@ -83,6 +87,7 @@ bool BlockFiller::add(PrimitiveId id, const Triangle& unturned) {
     block_.corners[i][slots_] = static_cast<std::uint8_t>(corners[i]);
     for (int axis = 0; axis < 3; ++axis) block_.vertices[axis][corners[i]] = vertices[i][axis];
   }
+  block_.corners[0][slots_] |= static_cast<std::uint8_t>(first * TriangleBlock::kVertices);
   block_.id[slots_++] = id;
   const Vec3 e1 = t.b - t.a, e2 = t.c - t.a;
   const float largest1 = largest_component(e1), largest2 = largest_component(e2);

@@ -32,6 +32,12 @@ void scene_block(const Instance& instance, const TriangleBlock& from, TriangleBl
   }
   const int second = instance.is_mirrored != 0 ? 2 : 1;
   __builtin_memcpy(to.corners[0], from.corners[0], kWidth);
+  if (instance.is_mirrored != 0) {
+    // The scene exchanges the vertices 1 and 2, and thus the two bits.
+    for (std::uint8_t& corner : to.corners[0])
+      corner =
+          static_cast<std::uint8_t>((corner & 15U) | (corner & 16U) << 1U | (corner & 32U) >> 1U);
+  }
   __builtin_memcpy(to.corners[1], from.corners[second], kWidth);
   __builtin_memcpy(to.corners[2], from.corners[3 - second], kWidth);
   F largest{}, product{};
