@@ -162,5 +162,71 @@ TEST(MaskedPaths, LoseNoLightBesideSmallTriangles) {
   }
 }
 
+/// A floor under tilted sheets that let light pass where x is negative, with these opacities in
+/// units of 1 / 5, and are transparent elsewhere.
+Scene sheets_over_floor(const std::vector<int>& opacities) {
+  Scene scene;
+  scene.materials = {{.base_color = {0.5F, 0.5F, 0.5F, 1}, .roughness = 1}};
+  scene.objects.push_back(
+      {.shape = parallelogram({-10, 0, 10}, {20, 0, 0}, {0, 0, -20}), .material = 0});
+  // Many triangles, so that the tree splits the large ones.
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 at(6 + 0.1F * static_cast<float>(i % 20), 1 + 0.1F * static_cast<float>(i / 20), 3);
+    scene.objects.push_back({.shape = parallelogram(at, {0.05F, 0, 0}, {0, 0.05F, 0})});
+  }
+  for (std::uint32_t i = 0; i < opacities.size(); ++i) {
+    const auto alpha = static_cast<std::uint8_t>(51 * opacities[i]);
+    add_half_transparent_texture(scene);
+    scene.images.back() = std::make_shared<const Image>(
+        Image{.width = 2,
+              .height = 1,
+              .channels = 4,
+              .samples = std::vector<std::uint8_t>{255, 255, 255, alpha, 255, 255, 255, 0}});
+    scene.textures.back().image = i;
+    scene.materials.push_back({.base_color = {0, 0, 0, 1},
+                               .base_color_texture = TextureUse{.texture = i},
+                               .alpha_mode = AlphaMode::blend,
+                               .double_sided = true});
+    const float tilt = 0.1F * static_cast<float>(i + 1);
+    Mesh sheet = parallelogram({-8, 2 + tilt, 8}, {16, tilt, 0}, {0, -tilt, -16});
+    sheet.uv_sets.push_back({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    scene.objects.push_back({.shape = sheet, .material = i + 1});
+  }
+  return scene;
+}
+
+TEST(MaskedPaths, MultiplyTheLightThatPassesBlendedSheets) {
+  const PerspectiveCamera camera{
+      .pose = {.position = {-4, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, 1}},
+      .vertical_fov = 0.2};
+  const auto add_sun = [](Scene& scene) {
+    scene.lights.push_back(
+        {.name = "", .light = DirectionalLight{.direction = {0, -1, 0}, .intensity = 2}});
+  };
+  const auto add_bulb = [](Scene& scene) {
+    scene.lights.push_back(
+        {.name = "", .light = PointLight{.position = {-4, 5, 0}, .intensity = 100}});
+  };
+  const auto light = [&](const auto& add, const std::vector<int>& opacities) {
+    Scene scene = sheets_over_floor(opacities);
+    add(scene);
+    const Shot shot{.size = {.width = 32, .height = 32}, .samples = 16, .max_depth = 2};
+    return mean_of(shoot(scene, camera, shot)).y;
+  };
+  const auto check = [&](const char* name, const auto& add) {
+    const double bare = light(add, {});
+    EXPECT_GT(bare, 0.01) << name;
+    for (const std::vector<int>& opacities : std::vector<std::vector<int>>{
+             {2}, {1, 3}, {3, 2, 1}, {1, 2, 1, 3}, {2, 5}, {5, 1}, {1, 0, 2}}) {
+      double part = 1;
+      for (const int opacity : opacities) part *= 1 - opacity / 5.0;
+      EXPECT_NEAR(light(add, opacities) / bare, part, 1e-3)
+          << name << ", " << opacities.size() << " sheets, " << part;
+    }
+  };
+  check("sun", add_sun);
+  check("bulb", add_bulb);
+}
+
 }  // namespace
 }  // namespace microtrace

@@ -1,7 +1,6 @@
 #include "render/integrators/shadow_rays.hpp"
 
-#include "render/shading/transmittance.hpp"
-
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -56,36 +55,42 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
   const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
     colors[rays.slot[i]] += part * vector_of(rays.light, i);
   };
-  // Adds the light that passes the surfaces of ray i, whose query has found a blocker.
-  const auto add_rest = [&](const ShadowColumns& arrays, const RayColumns& rays, std::size_t i,
-                            const std::optional<PrimitiveId>& target) {
-    const bool may_be_beside = target && shading.is_same_emitter(hits_[i], *target);
+  const bool passes_blended = blockers.can_pass_blended();
+  // The blended triangles that queries of this number of rays pass.
+  const auto passed_by = [&](std::size_t rays) {
+    const auto passed = std::span(passed_).first(passes_blended ? rays : 0);
+    std::ranges::fill(passed, PassedTriangles{});
+    return passed;
+  };
+  // Adds the light of ray i after its query.
+  const auto add_light = [&](const ShadowColumns& arrays, const RayColumns& rays, std::size_t i,
+                             const std::optional<PrimitiveId>& target) {
     const NestedMedia* here = media.at(arrays.media[i]);
-    // Only media within others hide surfaces.
-    const bool may_be_hidden = here != nullptr && here->outer != nullptr;
-    if (!may_be_beside && !may_be_hidden && blockers.blocks(hits_[i])) return;
+    if (hits_[i] == kNoPrimitive || hits_[i] == target) {
+      if (!passes_blended) return add(arrays, i, 1);
+      // Those of a ray with a target may be behind it.
+      if (passed_[i].count <= (target ? 0 : PassedTriangles::kMost))
+        return add(arrays, i, passed_[i].transmittance);
+    } else {
+      const bool may_be_beside = target && shading.is_same_emitter(hits_[i], *target);
+      // Only media within others hide surfaces.
+      const bool may_be_hidden = here != nullptr && here->outer != nullptr;
+      if (!may_be_beside && !may_be_hidden && blockers.blocks(hits_[i])) return;
+    }
     const Ray ray = rays[i];
     add(arrays, i,
         transmittance(bvh, shading, passes_backs, ray, bvh.intersect(ray), target, beyond,
                       {.table = &media, .here = here}));
   };
   const RayColumns free = columns_of(free_.rays, free_.count);
-  tracer.any(free, blockers.filter(), std::span(hits_).first(free_.count));
-  for (std::size_t i = 0; i < free_.count; ++i) {
-    if (hits_[i] == kNoPrimitive)
-      add(free_.rays, i, 1);
-    else
-      add_rest(free_.rays, free, i, std::nullopt);
-  }
+  tracer.any(free, blockers.filter(nullptr, passed_by(free_.count)),
+             std::span(hits_).first(free_.count));
+  for (std::size_t i = 0; i < free_.count; ++i) add_light(free_.rays, free, i, std::nullopt);
   const RayColumns aimed = columns_of(aimed_.rays, aimed_.count);
-  tracer.closest(aimed, blockers.filter(aimed_.rays.target), std::span(hits_).first(aimed_.count));
-  for (std::size_t i = 0; i < aimed_.count; ++i) {
-    const PrimitiveId target = aimed_.rays.target[i];
-    if (hits_[i] == target || hits_[i] == kNoPrimitive)
-      add(aimed_.rays, i, 1);
-    else
-      add_rest(aimed_.rays, aimed, i, target);
-  }
+  tracer.closest(aimed, blockers.filter(aimed_.rays.target, passed_by(aimed_.count)),
+                 std::span(hits_).first(aimed_.count));
+  for (std::size_t i = 0; i < aimed_.count; ++i)
+    add_light(aimed_.rays, aimed, i, aimed_.rays.target[i]);
   free_.count = aimed_.count = 0;
   return beyond;
 }

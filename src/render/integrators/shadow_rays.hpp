@@ -7,6 +7,7 @@
 #include "render/kernels/kernel.hpp"
 #include "render/media/nested_media.hpp"
 #include "render/shading/shading.hpp"
+#include "render/shading/transmittance.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/integrator.hpp>
@@ -57,6 +58,7 @@ class ShadowRays {
   Group free_, aimed_;
   LaneFloats t_max_;                            // working memory of add()
   std::array<PrimitiveId, kRandomBatch> hits_;  // working memory
+  std::array<PassedTriangles, kRandomBatch> passed_;
 };
 
 }  // namespace microtrace

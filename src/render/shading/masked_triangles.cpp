@@ -27,6 +27,7 @@ void Shading::find_masked() {
     }
     const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
     entry.first_map = opacity_.add(*entry.mesh, looks_[entry.look]);
+    has_blended_ |= looks_[entry.look].depends_on_alpha && material.alpha_mode == AlphaMode::blend;
     for (PrimitiveId id = entry.first_id; id < end; ++id) {
       if (opacity_.everywhere(entry.first_map + (id - entry.first_id)) != Opacity::visible)
         insert(masked_.data(), id);
@@ -71,20 +72,20 @@ Visible Shading::known_visible(PrimitiveId id, const HitWeights& at) const {
   }
 }
 
-bool Shading::is_transparent(const Ray& ray, PrimitiveId id) const {
+float Shading::masked_coverage(const Ray& ray, PrimitiveId id) const {
   const Entry& entry = entries_[primitives_.object_index(id)];
   const MaskedHit hit(entry, ray, id);
-  if (!hit.plane.are_sure()) return is_transparent(point(ray, {.id = id, .t = 0}).unfiltered());
+  if (!hit.plane.are_sure()) return alpha_coverage(point(ray, {.id = id, .t = 0}).unfiltered());
   ShadingPoint point{.at = {}, .look = &looks_[entry.look]};
   point.at.mesh = entry.mesh;
   point.at.corners = hit.corners;
   point.at.barycentrics = hit.barycentrics();
   point.at.find_first_uv();
-  return is_transparent(point);
+  return alpha_coverage(point);
 }
 
-bool Shading::is_transparent(const ShadingPoint& point) {
-  return coverage(*point.look->material, base_color(point).w) == 0;
+float Shading::alpha_coverage(const ShadingPoint& point) {
+  return coverage(*point.look->material, base_color(point).w);
 }
 
 bool Shading::is_transparent_to_camera(const Ray& ray, PrimitiveId id,

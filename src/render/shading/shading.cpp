@@ -60,8 +60,8 @@ bool has_map(const TextureSlot& slot) {
 
 void set_opacity(TexturedMaterial& look) {
   const AlphaMode mode = look.material->alpha_mode;
-  look.is_opaque_if_visible =
-      !is_thin_glass(*look.material) && !look.has_open_opaque_parts && mode != AlphaMode::blend;
+  look.depends_on_alpha = !is_thin_glass(*look.material) && !look.has_open_opaque_parts;
+  look.is_opaque_if_visible = look.depends_on_alpha && mode != AlphaMode::blend;
   look.is_opaque = look.is_opaque_if_visible && mode == AlphaMode::opaque;
 }
 

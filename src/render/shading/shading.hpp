@@ -105,9 +105,21 @@ class Shading {
   [[nodiscard]] bool is_masked(PrimitiveId id) const { return is_in(masked(), id); }
   /// Whether one of these triangles has opacity at these weights, if that is known.
   [[nodiscard]] Visible known_visible(PrimitiveId id, const HitWeights& at) const;
-  /// True if one of these triangles, which the ray hits, has no opacity there because of its alpha.
-  /// The ray must not be a camera ray.
-  [[nodiscard]] bool is_transparent(const Ray& ray, PrimitiveId id) const;
+  /// The opacity that alpha gives one of these triangles where the ray hits it. The ray must not be
+  /// a camera ray.
+  [[nodiscard]] float masked_coverage(const Ray& ray, PrimitiveId id) const;
+  /// True if this opacity is 0.
+  [[nodiscard]] bool is_transparent(const Ray& ray, PrimitiveId id) const {
+    return masked_coverage(ray, id) == 0;
+  }
+  /// True if one of these triangles blends with what is behind it. If so, the light that passes it
+  /// depends only on masked_coverage(), unless it arrives through an open back.
+  [[nodiscard]] bool is_blended(PrimitiveId id) const {
+    const TexturedMaterial& look = look_of(id);
+    return has_blended_ && look.depends_on_alpha && look.material->alpha_mode == AlphaMode::blend;
+  }
+  /// True if there are such triangles.
+  [[nodiscard]] bool has_blended() const { return has_blended_; }
   /// True if such a triangle has no opacity for a camera ray with this footprint. The result may
   /// also be false if that is difficult to decide.
   [[nodiscard]] bool is_transparent_to_camera(const Ray& ray, PrimitiveId id,
@@ -161,7 +173,7 @@ class Shading {
   }
   void find_open_fronts();
   void find_masked();
-  [[nodiscard]] static bool is_transparent(const ShadingPoint& point);
+  [[nodiscard]] static float alpha_coverage(const ShadingPoint& point);
   struct MaskedHit;
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
   /// True if the surface transmits no light at the point, or only diffusely, because it has no
@@ -179,7 +191,7 @@ class Shading {
   FlatTriangles flat_triangles_;
   std::vector<std::uint32_t> open_fronts_, masked_;
   OpacityMaps opacity_;
-  bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false;
+  bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false, has_blended_ = false;
 };
 
 }  // namespace microtrace

@@ -82,8 +82,10 @@ struct TexturedMaterial {
   /// True if the material has textures or an alpha mode, so that points differ.
   bool varies = false;
   bool has_back = false;  ///< has_back(*material)
-  /// True if coverage() is 0 or 1 everywhere for rays other than camera rays, depending only on
-  /// alpha, and there are no open opaque parts.
+  /// True if coverage() depends only on alpha for rays other than camera rays, and there are no
+  /// open opaque parts.
+  bool depends_on_alpha = false;
+  /// True if coverage() is also 0 or 1 everywhere.
   bool is_opaque_if_visible = false;
   /// True if coverage() is also 1 everywhere.
   bool is_opaque = false;

@@ -5,9 +5,12 @@
 
 #include <microtrace/bvh.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace microtrace {
 
@@ -16,6 +19,25 @@ namespace microtrace {
 struct AroundRay {
   NestedMediaTable* table = nullptr;
   const NestedMedia* here = nullptr;  ///< null for a vacuum
+};
+
+/// The blended triangles that the query of a ray has passed, and the light that passes them. Only
+/// three or more factors have different products in different orders.
+struct PassedTriangles {
+  static constexpr std::uint32_t kMost = 2;
+
+  std::uint32_t count = 0;
+  std::array<PrimitiveId, kMost> ids{};
+  float transmittance = 1;  ///< valid if count is at most kMost
+
+  /// Adds a triangle, unless it is known.
+  void add(PrimitiveId id, float coverage) {
+    const std::uint32_t known = std::min(count, kMost);
+    if (std::find(ids.begin(), ids.begin() + known, id) != ids.begin() + known) return;
+    if (count < kMost) ids[count] = id;
+    count = known + 1;
+    transmittance *= 1 - coverage;
+  }
 };
 
 /// What blocks all light along a ray.
@@ -29,9 +51,12 @@ class LightBlockers {
 
   /// The hits that the queries of a RayTracer must find. Unless `targets` is null, ray i must find
   /// its target targets[i], and hits beside it on the same emitter, even where they are
-  /// transparent. Valid as long as this object.
-  [[nodiscard]] HitFilter filter(const std::uint32_t* targets = nullptr) {
+  /// transparent. Unless `passed` is empty, ray i also passes blended triangles with an opacity
+  /// below 1, which are added to passed[i]. Valid as long as this object.
+  [[nodiscard]] HitFilter filter(const std::uint32_t* targets = nullptr,
+                                 std::span<PassedTriangles> passed = {}) {
     targets_ = targets;
+    passed_ = passed;
     return {.open_fronts = open_,
             .masked = {
                 .triangles = shading_.masked(), .context = this, .known = known, .passes = passes}};
@@ -39,17 +64,32 @@ class LightBlockers {
   /// True if a ray on which such a query has found this primitive transmits no light, unless the
   /// primitive is the target or a hidden surface. Otherwise, transmittance() decides.
   [[nodiscard]] bool blocks(PrimitiveId id) const {
-    return !may_pass_opaque_ && shading_.blocks_unless_transparent(id);
+    if (may_pass_opaque_) return false;
+    return shading_.blocks_unless_transparent(id) ||
+           (shading_.is_masked(id) && passes_if_partial(id));
+  }
+  /// True if rays may pass blended triangles.
+  [[nodiscard]] bool can_pass_blended() const {
+    return !may_pass_opaque_ && shading_.has_blended();
   }
 
  private:
   static bool passes(const void* self, std::size_t i, const Ray& ray, PrimitiveId id) {
     const auto& blockers = *static_cast<const LightBlockers*>(self);
-    return !blockers.may_be_target(i, id) && blockers.shading_.is_transparent(ray, id);
+    if (blockers.may_be_target(i, id)) return false;
+    const float coverage = blockers.shading_.masked_coverage(ray, id);
+    if (coverage == 0 || coverage == 1 || !blockers.passes_if_partial(id)) return coverage == 0;
+    blockers.passed_[i].add(id, coverage);
+    return true;
   }
   static Visible known(const void* self, std::size_t i, PrimitiveId id, const HitWeights& at) {
     const auto& blockers = *static_cast<const LightBlockers*>(self);
-    return blockers.may_be_target(i, id) ? Visible::yes : blockers.shading_.known_visible(id, at);
+    if (blockers.may_be_target(i, id)) return Visible::yes;
+    const Visible known = blockers.shading_.known_visible(id, at);
+    return known == Visible::yes && blockers.passes_if_partial(id) ? Visible::unsure : known;
+  }
+  [[nodiscard]] bool passes_if_partial(PrimitiveId id) const {
+    return !passed_.empty() && shading_.is_blended(id);
   }
   [[nodiscard]] bool may_be_target(std::size_t i, PrimitiveId id) const {
     return targets_ != nullptr && shading_.is_same_emitter(id, targets_[i]);
@@ -59,6 +99,7 @@ class LightBlockers {
   const std::uint32_t* open_;
   bool may_pass_opaque_;  // true if light passes opaque surfaces through which the queries don't
   const std::uint32_t* targets_ = nullptr;
+  std::span<PassedTriangles> passed_;
 };
 
 /// The fraction of light that passes all surfaces on a ray before its t_max or its target. `hit` is
