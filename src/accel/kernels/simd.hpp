@@ -36,7 +36,8 @@ inline Float<N> picked(const float* sixteen, const std::uint8_t* indices) {
 /// Returns table[indices[i]] in lane i, or any number if the index is not less than `count`. The
 /// table has 128 elements, of which the first `count` are used.
 template <int N>
-inline Double<N> looked_up(const double* table, std::uint32_t count, const std::uint32_t* indices) {
+inline Double<N> looked_up(const double* table, [[maybe_unused]] std::uint32_t count,
+                           const std::uint32_t* indices) {
 #if defined(__AVX512VL__)
   if constexpr (N == 8) {
     const __m256i index = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(indices));
