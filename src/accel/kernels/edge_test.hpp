@@ -116,8 +116,10 @@ inline Within within_edges(const TriangleBlock& block, int k, const float* o, co
 /// most E D^2 / |size| per unit of t. PlanePoints uses the scene's first vertex, for which T and E
 /// may be twice as large. As |size| is at most E^2 D, all errors together, rounded to float32, are
 /// below kError if T E^3 D^2 is below 2^24 size^2.
-inline HitWeights weights_at_hit(const TriangleBlock& block, int k, const float* o,
-                                 const float* d) {
+///
+/// Not inlined, because it would take registers from the tests of scenes without masks.
+__attribute__((noinline)) inline HitWeights weights_at_hit(const TriangleBlock& block, int k,
+                                                           const float* o, const float* d) {
   const auto [a, e1, e2] = NearTriangle(block, k, o);
   double u = 0, v = 0, size = 0, o_sum = 0, d_sum = 0;
   for (int i = 0; i < 3; ++i) {
