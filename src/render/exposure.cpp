@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -69,13 +70,17 @@ double exposure_for(double value) {
 double automatic_exposure(const PreparedScene& scene, const Camera& camera, ImageSize size,
                           const RenderOptions& options) {
   const bool is_random = options.integrator != nullptr && options.integrator->is_random();
+  // Only surfaces are measured.
+  std::optional<Environment> environment =
+      options.environment ? options.environment : scene.scene().environment;
+  if (environment) environment->is_background = false;
   Film film = render(scene, camera, small(size),
                      {.threads = options.threads,
                       .run_threads = options.run_threads,
                       .integrator = options.integrator,
                       .samples = is_random ? kSamples : 1,
                       .memory = options.memory,
-                      .environment = options.environment,
+                      .environment = environment,
                       .background = options.background,
                       .transparent = true});
   const double value = film.display.srgb ? percentile_of(film) : 0;

@@ -50,6 +50,11 @@ TEST(AutomaticExposure, IgnoresTheBackgroundAndAFewBrightPixels) {
   scene.objects = {{.shape = Sphere{{0, 0, -5}, 1.5F}, .material = 0},
                    {.shape = Sphere{{0, 0, -3}, 0.1F}, .material = 1}};  // covers 1 %
   EXPECT_DOUBLE_EQ(exposure_of(scene), 2);
+  const Environment visible{.content = Vec3(100), .is_background = true};
+  EXPECT_DOUBLE_EQ(exposure_of(scene, kExposureSize, {.environment = visible}), 2);
+  scene.environment = visible;
+  EXPECT_DOUBLE_EQ(exposure_of(scene), 2);
+  scene.environment = Environment{.content = Vec3(0)};
   scene.objects[1].shape = Sphere{{0, 0, -3}, 0.5F};
   EXPECT_DOUBLE_EQ(exposure_of(scene), expected(1000));
 }
