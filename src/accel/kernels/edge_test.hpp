@@ -83,27 +83,40 @@ __attribute__((always_inline)) inline Within meets_front(const TriangleBlock& bl
   return slope > bound ? Within::no : Within::unsure;
 }
 
+/// The signed volumes of volume_test.hpp in float64.
+struct NearVolumes {
+  double u = 0, v = 0, size = 0;
+
+  NearVolumes(const NearTriangle& t, const float* d) {
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, l = (i + 2) % 3;
+      u += (t.e2[j] * t.a[l] - t.e2[l] * t.a[j]) * d[i];
+      v += (t.a[j] * t.e1[l] - t.a[l] * t.e1[j]) * d[i];
+      size += (t.e1[j] * t.e2[l] - t.e1[l] * t.e2[j]) * d[i];
+    }
+  }
+};
+
+inline double sum_of_magnitudes(const float* x) {
+  const double widened[3] = {x[0], x[1], x[2]};
+  return sum_of_magnitudes(widened);
+}
+
 /// Decides whether the line of a ray passes through triangle k of a block, including its edges.
 inline Within within_edges(const TriangleBlock& block, int k, const float* o, const float* d) {
   ++edge_test_count;
-  const auto [a, e1, e2] = NearTriangle(block, k, o);
-  double u = 0, v = 0, size = 0, d_sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, l = (i + 2) % 3;
-    u += (e2[j] * a[l] - e2[l] * a[j]) * d[i];
-    v += (a[j] * e1[l] - a[l] * e1[j]) * d[i];
-    size += (e1[j] * e2[l] - e1[l] * e2[j]) * d[i];
-    d_sum += __builtin_fabs(double{d[i]});
-  }
+  const NearTriangle t(block, k, o);
+  auto [u, v, size] = NearVolumes(t, d);
   if (size < 0) {
     u = -u;
     v = -v;
     size = -size;
   }
-  const double largest1 = largest_magnitude(e1), largest2 = largest_magnitude(e2);
-  const double bound = (sum_of_magnitudes(a) * greater(largest1, largest2) + largest1 * largest2) *
-                           (15.01 * 0x1p-53 * d_sum) +
-                       0x1p-600;
+  const double largest1 = largest_magnitude(t.e1), largest2 = largest_magnitude(t.e2);
+  const double bound =
+      (sum_of_magnitudes(t.a) * greater(largest1, largest2) + largest1 * largest2) *
+          (15.01 * 0x1p-53 * sum_of_magnitudes(d)) +
+      0x1p-600;
   const double within = lesser(lesser(u, v), size - (u + v));
   if (within > bound) return Within::yes;
   return within < -bound ? Within::no : Within::unsure;
@@ -120,26 +133,19 @@ inline Within within_edges(const TriangleBlock& block, int k, const float* o, co
 /// Not inlined, because it would take registers from the tests of scenes without masks.
 __attribute__((noinline)) inline HitWeights weights_at_hit(const TriangleBlock& block, int k,
                                                            const float* o, const float* d) {
-  const auto [a, e1, e2] = NearTriangle(block, k, o);
-  double u = 0, v = 0, size = 0, o_sum = 0, d_sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, l = (i + 2) % 3;
-    u += (e2[j] * a[l] - e2[l] * a[j]) * d[i];
-    v += (a[j] * e1[l] - a[l] * e1[j]) * d[i];
-    size += (e1[j] * e2[l] - e1[l] * e2[j]) * d[i];
-    o_sum += __builtin_fabs(double{o[i]});
-    d_sum += __builtin_fabs(double{d[i]});
-  }
-  const double inverse = 1 / size, edges = sum_of_magnitudes(e1) + sum_of_magnitudes(e2);
-  const double scale = edges * d_sum;
+  const NearTriangle t(block, k, o);
+  auto [u, v, size] = NearVolumes(t, d);
+  const double inverse = 1 / size, edges = sum_of_magnitudes(t.e1) + sum_of_magnitudes(t.e2);
+  const double scale = edges * sum_of_magnitudes(d);
   u *= inverse;
   v *= inverse;
   const double weights[4] = {v, u, 1 - u - v, v};
   const unsigned first = scene_number(block, static_cast<std::size_t>(k));
-  return {.second = static_cast<float>(weights[first + 1]),
-          .third = static_cast<float>(weights[first]),
-          .are_sure = (o_sum + sum_of_magnitudes(a) + edges) * edges * scale * scale <
-                      0x1p24 * size * size};
+  return {
+      .second = static_cast<float>(weights[first + 1]),
+      .third = static_cast<float>(weights[first]),
+      .are_sure = (sum_of_magnitudes(o) + sum_of_magnitudes(t.a) + edges) * edges * scale * scale <
+                  0x1p24 * size * size};
 }
 
 }  // namespace
