@@ -107,7 +107,8 @@ bool Bvh::Impl::intersect_packet(std::span<const Ray> rays,
   KernelPacket packet;
   if (!fill_packet(rays, *kernels, packet)) return false;
   // The hits are written after the traversal.
-  for (std::size_t i = 0; i < rays.size(); i += 5) __builtin_prefetch(&hits[i], 1);
+  constexpr std::size_t kHitsOfLine = 64 / sizeof(std::optional<Hit>);
+  for (std::size_t i = 0; i < rays.size(); i += kHitsOfLine) __builtin_prefetch(&hits[i], 1);
   PacketResolver resolver(primitives, *kernels, rays, packet);
   for (const PrimitiveId id : outside) resolver.consider_all(id, packet);
   if (has_tree) kernels->closest_of_packet(view(), packet, resolver.fallback());

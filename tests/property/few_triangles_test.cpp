@@ -172,7 +172,8 @@ void add_small_triangles(Random& random, int count, Parallelograms& all) {
 TEST(FewTriangles, LargeTrianglesAmongManyHaveTheirExactHits) {
   with_each_kernel([] {
     Random random = traversal::announced_random(63);
-    const std::size_t rounds = traversal::ray_count(0.02) / kRays;
+    // In builds with sanitizers, the scenes of a share of the rays are too few to be typical.
+    const std::size_t rounds = std::max<std::size_t>(traversal::ray_count(0.02) / kRays, 16);
     std::size_t with_large = 0, hits = 0;
     for (std::size_t round = 0; round < rounds; ++round) {
       Parallelograms all(random, 4, 1 << random.between(0, 4));
@@ -187,7 +188,7 @@ TEST(FewTriangles, LargeTrianglesAmongManyHaveTheirExactHits) {
       }
       ASSERT_NO_FATAL_FAILURE(check_rays(random, all, hits)) << "round " << round;
     }
-    EXPECT_GT(with_large, rounds / 8);  // builds with sanitizers have only four rounds
+    EXPECT_GT(with_large, rounds / 2);
     EXPECT_GT(hits, rounds * kRays / 4);
   });
 }

@@ -139,6 +139,7 @@ __attribute__((noinline)) inline HitWeights weights_at_hit(const TriangleBlock& 
   const double scale = edges * sum_of_magnitudes(d);
   u *= inverse;
   v *= inverse;
+  // Those of the block's c, b, a, c. The scene's vertices are the block's, rotated.
   const double weights[4] = {v, u, 1 - u - v, v};
   const unsigned first = scene_number(block, static_cast<std::size_t>(k));
   return {

@@ -3,6 +3,8 @@
 
 #include "simd/vectors.hpp"
 
+#include <cstddef>
+
 namespace microtrace {
 namespace {
 
@@ -33,23 +35,24 @@ inline Float<N> picked(const float* sixteen, const std::uint8_t* indices) {
   return v;
 }
 
-/// Returns table[indices[i]] in lane i, or any number if the index is not less than `count`. The
-/// table has 128 elements, of which the first `count` are used.
-template <int N>
-inline Double<N> looked_up(const double* table, [[maybe_unused]] std::uint32_t count,
+/// Returns table[indices[i]] in lane i, or any number if the index is not less than `count`, the
+/// number of elements that are used.
+template <int N, std::size_t kSize>
+inline Double<N> looked_up(const double (&table)[kSize], [[maybe_unused]] std::uint32_t count,
                            const std::uint32_t* indices) {
+  static_assert((kSize & (kSize - 1)) == 0 && kSize >= 16);
 #if defined(__AVX512VL__)
   if constexpr (N == 8) {
     const __m256i index = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(indices));
     if (count <= 16)
       return _mm512_permutex2var_pd(_mm512_loadu_pd(table), _mm512_cvtepu32_epi64(index),
                                     _mm512_loadu_pd(table + 8));
-    return _mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff,
-                                    _mm256_and_si256(index, _mm256_set1_epi32(127)), table, 8);
+    return _mm512_mask_i32gather_pd(
+        _mm512_setzero_pd(), 0xff, _mm256_and_si256(index, _mm256_set1_epi32(kSize - 1)), table, 8);
   }
 #endif
   Double<N> v{};
-  for (int i = 0; i < N; ++i) set_lane(v, i, table[indices[i] & 127U]);
+  for (int i = 0; i < N; ++i) set_lane(v, i, table[indices[i] % kSize]);
   return v;
 }
 

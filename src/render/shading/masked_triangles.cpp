@@ -27,7 +27,7 @@ void Shading::find_masked() {
     }
     const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
     entry.first_map = opacity_.add(*entry.mesh, looks_[entry.look]);
-    has_blended_ |= looks_[entry.look].depends_on_alpha && material.alpha_mode == AlphaMode::blend;
+    has_blended_ |= blends(looks_[entry.look]);
     for (PrimitiveId id = entry.first_id; id < end; ++id) {
       if (opacity_.everywhere(entry.first_map + (id - entry.first_id)) != Opacity::visible)
         insert(masked_.data(), id);

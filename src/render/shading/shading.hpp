@@ -114,10 +114,7 @@ class Shading {
   }
   /// True if one of these triangles blends with what is behind it. If so, the light that passes it
   /// depends only on masked_coverage(), unless it arrives through an open back.
-  [[nodiscard]] bool is_blended(PrimitiveId id) const {
-    const TexturedMaterial& look = look_of(id);
-    return has_blended_ && look.depends_on_alpha && look.material->alpha_mode == AlphaMode::blend;
-  }
+  [[nodiscard]] bool is_blended(PrimitiveId id) const { return blends(look_of(id)); }
   /// True if there are such triangles.
   [[nodiscard]] bool has_blended() const { return has_blended_; }
   /// True if such a triangle has no opacity for a camera ray with this footprint. The result may
@@ -174,6 +171,9 @@ class Shading {
   void find_open_fronts();
   void find_masked();
   [[nodiscard]] static float alpha_coverage(const ShadingPoint& point);
+  [[nodiscard]] static bool blends(const TexturedMaterial& look) {
+    return look.depends_on_alpha && look.material->alpha_mode == AlphaMode::blend;
+  }
   struct MaskedHit;
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
   /// True if the surface transmits no light at the point, or only diffusely, because it has no

@@ -67,6 +67,26 @@ inline void set_beam(float least, float greatest, int axis, Beam& beam) {
   beam.radius[axis] = greater(greatest - center, center - least) * (1 + 0x1p-22F) + 0x1p-126F;
 }
 
+/// Sets the beams and the bounds of factors, given lanes with the least d and -d of each group.
+template <int N>
+inline void set_beams(Float<N> (&least)[3][kGroups], Float<N> (&least_opposite)[3][kGroups],
+                      KernelPacket& packet) {
+  float all_least[3], all_greatest[3];
+  packet.d_sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float<4> least_d = least_of_each<N>(least[axis]),
+                   greatest_d = -least_of_each<N>(least_opposite[axis]);
+    for (int group = 0; group < kGroups; ++group)
+      set_beam(least_d[group], greatest_d[group], axis, packet.group_beam[group]);
+    all_least[axis] = least_of<4>(least_d);
+    all_greatest[axis] = greatest_of<4>(greatest_d);
+    set_beam(all_least[axis], all_greatest[axis], axis, packet.beam);
+    packet.d_sum += greater(-all_least[axis], all_greatest[axis]);
+  }
+  packet.d_sum *= 1 + 0x1p-21F;
+  bound_factors(all_least, all_greatest, packet.boxes.bounds);
+}
+
 template <int N>
 bool fill_packet(const float* rays, int count, KernelPacket& packet) {
   using F = Float<N>;
@@ -118,21 +138,8 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
   if (suited != kAllLanes<N>) return false;
   for (int i = count; i < kPacketRays; ++i)
     packet.best_lo[i] = packet.best_hi[i] = -__builtin_inff();
-  float all_least[3], all_greatest[3];
-  packet.d_sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Float<4> least_d = least_of_each<N>(least[axis]),
-                   greatest_d = -least_of_each<N>(least_opposite[axis]);
-    for (int group = 0; group < kGroups; ++group)
-      set_beam(least_d[group], greatest_d[group], axis, packet.group_beam[group]);
-    all_least[axis] = least_of<4>(least_d);
-    all_greatest[axis] = greatest_of<4>(greatest_d);
-    set_beam(all_least[axis], all_greatest[axis], axis, packet.beam);
-    packet.d_sum += greater(-all_least[axis], all_greatest[axis]);
-  }
-  packet.d_sum *= 1 + 0x1p-21F;
+  set_beams<N>(least, least_opposite, packet);
   packet.least_t_begin = least_of<N>(least_t_begin);
-  bound_factors(all_least, all_greatest, packet.boxes.bounds);
   return true;
 }
 

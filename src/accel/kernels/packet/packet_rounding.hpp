@@ -50,7 +50,7 @@ class PacketRounding {
   // Rounds t for the rays [i, i + N). Rays without a hit get any result.
   [[nodiscard]] Lanes round(int i) const {
     const std::uint32_t* index = packet_.best_index + i;
-    const auto of = [&](const double* planes) {
+    const auto of = [&](const double(&planes)[PacketHits::kMost]) {
       return looked_up<N>(planes, packet_.hits.count, index);
     };
     const PlaneFromOrigin<D> plane{
