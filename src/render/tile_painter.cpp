@@ -114,7 +114,8 @@ void TilePainter::paint_block(const PixelRect& block) const {
 void TilePainter::paint(const PixelRect& tile) const {
   if (const std::optional<Sample> sample = common_sample(tile)) {
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y)
-      for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, *sample);
+      set_pixels(film_, tile.x0 - window_.x0, y - window_.y0, tile.x1 - tile.x0, sample->color,
+                 sample->alpha, background_);
     return;
   }
   for (std::uint32_t y = tile.y0; y < tile.y1; y += block_height_) {
