@@ -10,6 +10,7 @@
 #include <microtrace/scene.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -144,6 +145,8 @@ class MICROTRACE_EXPORT Bvh {
 
  private:
   friend class RayTracer;  // internal queries of rays in arrays
+  friend void intersect_fronts(const Bvh& bvh, std::span<const Ray> rays,
+                               const std::uint32_t* backs, std::span<std::optional<Hit>> hits);
   struct MICROTRACE_HIDDEN Impl;
   std::unique_ptr<const Impl> impl_;
 };

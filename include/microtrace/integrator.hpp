@@ -32,10 +32,13 @@ struct MICROTRACE_EXPORT World {
   const RayGenerator& camera;
   std::uint32_t seed = 0;     ///< random seed
   std::uint32_t samples = 1;  ///< samples per pixel for which base_color() filters textures
-  const Surfaces& surfaces;   ///< this and the next three are for the library's integrators
+  const Surfaces& surfaces;   ///< this and the following are for the library's integrators
   const Shading* shading = nullptr;
   const Lighting* lighting = nullptr;
   const PathGuide* guide = nullptr;  ///< null if paths are not guided
+  /// Triangles whose backs have no coverage for camera rays, one bit per primitive. Null stands for
+  /// none. It may leave out some of them.
+  const std::uint32_t* hidden_backs = nullptr;
 
   /// Returns position, normals, texture coordinates, object and triangle at a hit of `ray`.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const {

@@ -2,11 +2,13 @@
 #include "accel/bvh_tree.hpp"
 #include "accel/frustum/common_hit.hpp"
 #include "accel/hit_rounding.hpp"
+#include "accel/intersect_fronts.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_runs.hpp"
 #include "accel/ray_stream.hpp"
 #include "accel/resolve/hit_resolver.hpp"
+#include "accel/resolve/open_side.hpp"
 #include "accel/resolve/packet_resolver.hpp"
 #include "accel/spawn/clear_point.hpp"
 #include "accel/spawn/fast_spawn.hpp"
@@ -102,18 +104,63 @@ bool Bvh::Impl::occluded(const Ray& ray) const {
   return has_tree && kernels->any(view(), kernel_ray(ray, t_scale), resolver.fallback());
 }
 
-bool Bvh::Impl::intersect_packet(std::span<const Ray> rays,
+bool Bvh::Impl::intersect_packet(std::span<const Ray> rays, const OpenSide& open,
                                  std::span<std::optional<Hit>> hits) const {
   KernelPacket packet;
   if (!fill_packet(rays, *kernels, packet)) return false;
   // The hits are written after the traversal.
   constexpr std::size_t kHitsOfLine = 64 / sizeof(std::optional<Hit>);
   for (std::size_t i = 0; i < rays.size(); i += kHitsOfLine) __builtin_prefetch(&hits[i], 1);
-  PacketResolver resolver(primitives, *kernels, rays, packet);
+  PacketResolver resolver(primitives, *kernels, open, rays, packet);
   for (const PrimitiveId id : outside) resolver.consider_all(id, packet);
-  if (has_tree) kernels->closest_of_packet(view(), packet, resolver.fallback());
+  if (has_tree) {
+    TreeView from = view();
+    from.open = open;
+    kernels->closest_of_packet(from, packet, resolver.fallback());
+  }
   round_hits(resolver, *kernels, packet, hits.first(rays.size()));
   return true;
+}
+
+std::optional<Hit> Bvh::Impl::intersect(const Ray& ray, const OpenSide& open) const {
+  std::optional<Hit> hit = intersect(ray);
+  while (hit && meets_open_side(primitives, open, ray, hit->id)) hit = next(ray, hit->id);
+  return hit;
+}
+
+void Bvh::Impl::intersect(std::span<const Ray> rays, std::span<const PrimitiveId> left,
+                          const OpenSide& open, std::span<std::optional<Hit>> hits) const {
+  assert(rays.size() == hits.size() && (left.empty() || left.size() == rays.size()));
+  std::unique_ptr<RayStream> stream;
+  while (!rays.empty()) {
+    const auto whole = rays.first(std::min<std::size_t>(rays.size(), kPacketRays));
+    std::size_t done = whole.size();
+    // For few rays, the fixed cost of a packet is too high.
+    bool is_packet = done >= kLeastPacket && whole.front().o == whole.back().o &&
+                     intersect_packet(whole, open, hits);
+    if (!is_packet) {
+      done = common_origin_length(rays);
+      is_packet = done >= kLeastPacket && done < whole.size() &&
+                  intersect_packet(rays.first(done), open, hits);
+    }
+    if (!is_packet) {
+      done = has_tree ? unrelated_length(rays) : 1;
+      const auto ask_one = [&](std::size_t i) { hits[i] = intersect(rays[i], open); };
+      if (done >= kLeastStream) {
+        if (!stream) {
+          stream = std::make_unique<RayStream>(stream_target());
+          stream->set_filter({.open = open});
+        }
+        stream->closest({rays.first(done), left.first(left.empty() ? 0 : done)}, hits.first(done),
+                        ask_one);
+      } else {
+        for (std::size_t i = 0; i < done; ++i) ask_one(i);
+      }
+    }
+    rays = rays.subspan(done);
+    hits = hits.subspan(done);
+    if (!left.empty()) left = left.subspan(done);
+  }
 }
 
 Bvh::Bvh(const Scene& scene, BvhOptions options)
@@ -201,34 +248,16 @@ bool Bvh::occluded(const Ray& ray) const {
 void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
                     std::span<const PrimitiveId> left) const {
   const FloatEnvironment environment;
-  assert(rays.size() == hits.size() && (left.empty() || left.size() == rays.size()));
-  std::unique_ptr<RayStream> stream;
-  while (!rays.empty()) {
-    const auto whole = rays.first(std::min<std::size_t>(rays.size(), kPacketRays));
-    std::size_t done = whole.size();
-    // For few rays, the fixed cost of a packet is too high.
-    bool is_packet = done >= kLeastPacket && whole.front().o == whole.back().o &&
-                     impl_->intersect_packet(whole, hits);
-    if (!is_packet) {
-      done = common_origin_length(rays);
-      is_packet = done >= kLeastPacket && done < whole.size() &&
-                  impl_->intersect_packet(rays.first(done), hits);
-    }
-    if (!is_packet) {
-      done = impl_->has_tree ? unrelated_length(rays) : 1;
-      const auto ask_one = [&](std::size_t i) { hits[i] = impl_->intersect(rays[i]); };
-      if (done >= kLeastStream) {
-        if (!stream) stream = std::make_unique<RayStream>(impl_->stream_target());
-        stream->closest({rays.first(done), left.first(left.empty() ? 0 : done)}, hits.first(done),
-                        ask_one);
-      } else {
-        for (std::size_t i = 0; i < done; ++i) ask_one(i);
-      }
-    }
-    rays = rays.subspan(done);
-    hits = hits.subspan(done);
-    if (!left.empty()) left = left.subspan(done);
-  }
+  impl_->intersect(rays, left, {}, hits);
+}
+
+void intersect_fronts(const Bvh& bvh, std::span<const Ray> rays, const std::uint32_t* backs,
+                      std::span<std::optional<Hit>> hits) {
+  const FloatEnvironment environment;
+  // A triangle in the tree stands for all that coincide, but these may have different sides.
+  const bool knows_sides = bvh.impl_->tree.duplicates.empty();
+  bvh.impl_->intersect(rays, {}, {.triangles = knows_sides ? backs : nullptr, .is_back = true},
+                       hits);
 }
 
 void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results,

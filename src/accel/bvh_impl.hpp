@@ -61,9 +61,14 @@ struct Bvh::Impl {
   [[nodiscard]] bool occluded(const Ray& ray) const;
   [[nodiscard]] std::optional<Vec3> search_origin(const Spawn& spawn) const;
 
+  /// Set hits[i] to the first hit of ray i that is not on an open side. For `left`, see
+  /// Bvh::intersect.
+  void intersect(std::span<const Ray> rays, std::span<const PrimitiveId> left, const OpenSide& open,
+                 std::span<std::optional<Hit>> hits) const;
+  [[nodiscard]] std::optional<Hit> intersect(const Ray& ray, const OpenSide& open) const;
   /// Traces up to kPacketRays rays with a common origin. Returns false, without effect, if one of
   /// the rays exceeds the kernels' limits.
-  [[nodiscard]] bool intersect_packet(std::span<const Ray> rays,
+  [[nodiscard]] bool intersect_packet(std::span<const Ray> rays, const OpenSide& open,
                                       std::span<std::optional<Hit>> hits) const;
 
   Primitives primitives;

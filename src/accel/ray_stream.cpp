@@ -2,14 +2,10 @@
 
 #include "accel/hit_rounding.hpp"
 #include "accel/resolve/hit_resolver.hpp"
-
-#include <microtrace/scene.hpp>
+#include "accel/resolve/open_side.hpp"
 
 #include <algorithm>
 #include <cassert>
-#include <variant>
-
-#include <glm/geometric.hpp>
 
 namespace microtrace {
 
@@ -75,19 +71,10 @@ void RayStream::ask_outside() {
   }
 }
 
-bool meets_open_front(const Primitives& primitives, const std::uint32_t* open, const Ray& ray,
-                      PrimitiveId id) {
-  if (!is_in(open, id)) return false;
-  const Object& object = primitives.object(id);
-  const Triangle t = triangle_of(std::get<Mesh>(object.shape), id - primitives.first_id(id));
-  const DVec3 a(t.a);
-  return !(glm::dot(glm::cross(DVec3(t.b) - a, DVec3(t.c) - a), DVec3(ray.d)) > 0);
-}
-
 void RayStream::consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) const {
   if (!is_suited(i)) return;
   const Ray own = ray(i);
-  if (meets_open_front(target_.primitives, target_.tree.open_fronts, own, id)) return;
+  if (meets_open_side(target_.primitives, target_.tree.open, own, id)) return;
   const HitResolver resolver(target_.primitives, own);
   ClosestSoFar nearer = best;
   resolver.consider(id, nearer);

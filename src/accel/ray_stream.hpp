@@ -56,16 +56,9 @@ struct MaskedTriangles {
 
 /// Selects the hits that count.
 struct HitFilter {
-  /// Rays pass through the fronts of these triangles of meshes, one bit per primitive; null: there
-  /// are none.
-  const std::uint32_t* open_fronts = nullptr;
+  OpenSide open{};  ///< of triangles of meshes
   MaskedTriangles masked{};
 };
-
-/// True if a ray that hits primitive `id` arrives at the front of one of the triangles `open`,
-/// which has one bit per primitive or is null.
-[[nodiscard]] bool meets_open_front(const Primitives& primitives, const std::uint32_t* open,
-                                    const Ray& ray, PrimitiveId id);
 
 /// Traces up to kStreamRays rays at a time. The caller must trace rays beyond the kernels' limits.
 class RayStream {
@@ -101,7 +94,7 @@ class RayStream {
   /// Selects the hits that count in the following queries. The number of a query's first ray for
   /// HitFilter is `first`.
   void set_filter(const HitFilter& filter, std::size_t first = 0) {
-    target_.tree.open_fronts = filter.open_fronts;
+    target_.tree.open = filter.open;
     target_.tree.masked = filter.masked.triangles;
     masked_ = filter.masked;
     first_ = first;

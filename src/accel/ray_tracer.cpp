@@ -3,6 +3,7 @@
 #include "accel/bvh_impl.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/resolve/hit_resolver.hpp"
+#include "accel/resolve/open_side.hpp"
 #include "accel/stage_counts.hpp"
 #include "float_environment.hpp"
 #include "simd/lane_count.hpp"
@@ -51,7 +52,7 @@ void RayTracer::begin(const Bvh& bvh) {
   memory_->queries.emplace(*bvh.impl_);
 }
 
-bool RayTracer::knows_fronts() const {
+bool RayTracer::knows_sides() const {
   return queries().bvh.tree.duplicates.empty();
 }
 
@@ -63,7 +64,7 @@ void RayTracer::trace(const RayColumns& rays, const HitFilter& filter, std::span
   const auto ask_one = [&](std::size_t i) {
     const Ray ray = rays[i];
     std::optional<Hit> hit = bvh.intersect(ray);
-    while (hit && (meets_open_front(bvh.primitives, filter.open_fronts, ray, hit->id) ||
+    while (hit && (meets_open_side(bvh.primitives, filter.open, ray, hit->id) ||
                    filter.masked.lets_pass(i, ray, hit->id)))
       hit = bvh.next(ray, hit->id);
     ids[i] = hit ? hit->id : kNoPrimitive;

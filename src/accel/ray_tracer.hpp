@@ -21,8 +21,8 @@ class RayTracer {
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
 
-  /// True if rays can pass through fronts, which isn't the case if triangles coincide.
-  [[nodiscard]] bool knows_fronts() const;
+  /// True if rays can pass through open sides, which isn't the case if triangles coincide.
+  [[nodiscard]] bool knows_sides() const;
 
   /// Selects the Bvh, which must outlive the following queries.
   void begin(const Bvh& bvh);

@@ -19,6 +19,17 @@ inline bool is_in(const std::uint32_t* bits, std::uint32_t number) {
 inline void insert(std::uint32_t* bits, std::uint32_t number) {
   bits[number / 32] |= 1U << number % 32;
 }
+/// Inserts all numbers from `first` to `last` - 1.
+inline void insert(std::uint32_t* bits, std::uint32_t first, std::uint32_t last) {
+  while (first < last) {
+    if (first % 32 == 0 && last - first >= 32) {
+      bits[first / 32] = ~0U;
+      first += 32;
+    } else {
+      insert(bits, first++);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace microtrace

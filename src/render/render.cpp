@@ -115,7 +115,7 @@ class ExactChannels {
                 const PixelRect& window, Film& film)
       : buffers_(add_channels(aovs, film)) {
     if (buffers_.empty()) return;
-    world_.emplace(scene.world(1));
+    world_.emplace(scene.unlit_world(1));
     painter_.emplace(*world_, camera, buffers_, window);
   }
   ExactChannels(const ExactChannels&) = delete;
@@ -135,7 +135,7 @@ class ExactChannels {
 void draw_tiles(const SceneView& view, const Integrator& integrator, const RenderOptions& options,
                 const PixelRect& window, Threads& threads, Film& film,
                 const ExactChannels& channels) {
-  World world = view.world(options.samples);
+  World world = view.unlit_world(options.samples);
   world.seed = options.seed;
   const TilePainter colors(world, integrator, options, window, film);
   const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {

@@ -33,6 +33,12 @@ struct SceneView {
   SceneView(std::shared_ptr<const PreparedScene::Content> c, const Camera& from, ImageSize size)
       : content(std::move(c)), camera(from, size) {}
 
+  /// The scene for integrators that compute no light.
+  [[nodiscard]] World unlit_world(std::uint32_t samples) const {
+    World result = world(samples);
+    result.hidden_backs = content->hidden_backs().bits();
+    return result;
+  }
   [[nodiscard]] World world(std::uint32_t samples) const {
     return {.scene = content->scene(),
             .bvh = content->bvh(),

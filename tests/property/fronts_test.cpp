@@ -3,6 +3,7 @@
 
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_tracer.hpp"
+#include "accel/resolve/open_side.hpp"
 #include "support/cases/adversarial_scenes.hpp"
 #include "support/cases/placed_scenes.hpp"
 
@@ -85,9 +86,9 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
     tracer.closest(rays, {}, ids);
     std::vector<PrimitiveId> any(rays.count), behind(rays.count), first_behind(rays.count);
     tracer.any(rays, {}, any);
-    if (tracer.knows_fronts()) {
-      tracer.any(rays, {.open_fronts = open.data()}, behind);
-      tracer.closest(rays, {.open_fronts = open.data()}, first_behind);
+    if (tracer.knows_sides()) {
+      tracer.any(rays, {.open = {.triangles = open.data()}}, behind);
+      tracer.closest(rays, {.open = {.triangles = open.data()}}, first_behind);
     }
     for (std::size_t i = 0; i < rays.count; ++i) {
       const Ray ray = rays[i];
@@ -97,10 +98,10 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
       if (hit) {
         ASSERT_EQ(tracer.hit(ray, ids[i]).t, hit->t);
       }
-      if (!tracer.knows_fronts()) continue;
+      if (!tracer.knows_sides()) continue;
       const bool is_hit = hit.has_value();
       const auto is_open = [&](PrimitiveId id) {
-        return meets_open_front(bvh.primitives(), open.data(), ray, id);
+        return meets_open_side(bvh.primitives(), {.triangles = open.data()}, ray, id);
       };
       while (hit && is_open(hit->id)) hit = bvh.next(ray, *hit);
       ASSERT_EQ(behind[i] != kNoPrimitive, hit.has_value()) << "scene " << round << ", ray " << i;
@@ -154,7 +155,7 @@ void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::si
     if (on_mesh && random.one_in(2)) masked[id / 32] |= 1U << id % 32;
     if (on_mesh && random.one_in(3)) open[id / 32] |= 1U << id % 32;
   }
-  const bool with_open = tracer.knows_fronts() && random.one_in(2);
+  const bool with_open = tracer.knows_sides() && random.one_in(2);
   Columns columns;
   std::vector<float> t_min;
   // More rays than a stream traces at a time.
@@ -169,7 +170,7 @@ void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::si
   RayColumns rays = columns.view();
   rays.t_min = t_min.data();
   const Weighed context{.primitives = bvh.primitives(), .rays = rays};
-  const HitFilter filter{.open_fronts = with_open ? open.data() : nullptr,
+  const HitFilter filter{.open = {.triangles = with_open ? open.data() : nullptr},
                          .masked = {.triangles = masked.data(),
                                     .context = &context,
                                     .known = count % 2 == 0 ? check_weights : nullptr,
@@ -180,7 +181,7 @@ void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::si
   for (std::size_t i = 0; i < rays.count; ++i) {
     const Ray ray = rays[i];
     const auto passes = [&](PrimitiveId id) {
-      return meets_open_front(bvh.primitives(), filter.open_fronts, ray, id) ||
+      return meets_open_side(bvh.primitives(), filter.open, ray, id) ||
              filter.masked.lets_pass(i, ray, id);
     };
     std::optional<Hit> hit = bvh.intersect(ray);

@@ -113,8 +113,15 @@ struct RayFromMin {
   float t_min;
 };
 
-inline bool is_open_front(const TreeView& tree, std::uint32_t id) {
-  return is_in(tree.open_fronts, id);
+inline bool is_open(const TreeView& tree, std::uint32_t id) {
+  return is_in(tree.open.triangles, id);
+}
+/// Decides whether a ray arrives at the open side of triangle k of a block.
+inline Within meets_open_side(const TreeView& tree, const TriangleBlock& block, int k,
+                              const float* d) {
+  const Within front = meets_front(block, k, d);
+  if (!tree.open.is_back || front == Within::unsure) return front;
+  return front == Within::yes ? Within::no : Within::yes;
 }
 inline bool is_masked(const TreeView& tree, std::uint32_t id) {
   return is_in(tree.masked, id);
@@ -146,7 +153,7 @@ inline void consider(const TreeView& tree, const TriangleBlock& block, int k, co
 }
 
 /// Sets `best` to the nearest hit among the lanes that a block's test has not rejected, if that hit
-/// is nearer. Passes through open fronts. With kAny, stops at the first hit. `fallback` decides the
+/// is nearer. Passes through open sides. With kAny, stops at the first hit. `fallback` decides the
 /// uncertain lanes.
 template <int N, bool kAny, class Slowly>
 inline void meet_lanes(const TreeView& tree, const TriangleBlock& block, const BlockTest<N>& test,
@@ -156,11 +163,11 @@ inline void meet_lanes(const TreeView& tree, const TriangleBlock& block, const B
     const std::uint32_t id = block.id[lane];
     // A triangle can be in several leaves.
     if (id == best.id || id == ray.omitted_id) continue;
-    if (is_open_front(tree, id)) {
-      const Within front = meets_front(block, lane, ray.d);
-      if (front == Within::unsure) fallback(id, best);
+    if (is_open(tree, id)) {
+      const Within passes = meets_open_side(tree, block, lane, ray.d);
+      if (passes == Within::unsure) fallback(id, best);
       if (kAny && best.id != kNoPrimitive) return;
-      if (front != Within::no) continue;
+      if (passes != Within::no) continue;
     }
     consider(tree, block, lane, {ray.o, ray.d, ray.t_min},
              {.t = test.t(lane),

@@ -40,14 +40,16 @@ inline double largest_magnitude(const double (&x)[3]) {
   return greater(greater(__builtin_fabs(x[0]), __builtin_fabs(x[1])), __builtin_fabs(x[2]));
 }
 
+/// The error of a triple product relative to the sum of its terms' magnitudes. A term has at most 8
+/// roundings; the .01 covers second-order terms.
+constexpr double kTripleProductError = 8.01 * 0x1p-53;
+
 /// True if the ray's line certainly meets the plane of triangle k of a block at t < 0. Most
 /// triangles that float32 can't decide are those that the ray has just left.
 inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, const float* d) {
   const NearTriangle t(block, k, o);
   // The bounds sum the magnitudes of actual terms, of which an axis-aligned triangle has only one
-  // per form. This matters because a ray that leaves a floor at 0 may start only 2^-149 above it. A
-  // term of the height has 8 roundings; the .01 covers second-order terms.
-  constexpr double kRoundings = 8.01 * 0x1p-53;
+  // per form. This matters because a ray that leaves a floor at 0 may start only 2^-149 above it.
   double height = 0, size = 0, height_sum = 0, size_sum = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
@@ -58,8 +60,8 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
     height_sum += sum * __builtin_fabs(t.a[i]);
     size_sum += sum * __builtin_fabs(double{d[i]});
   }
-  const double height_bound = height_sum * kRoundings + 0x1p-600;
-  const double size_bound = size_sum * kRoundings + 0x1p-600;
+  const double height_bound = height_sum * kTripleProductError + 0x1p-600;
+  const double size_bound = size_sum * kTripleProductError + 0x1p-600;
   return size > 0 ? size > size_bound && height < -height_bound
                   : size < -size_bound && height > height_bound;
 }
@@ -76,9 +78,7 @@ __attribute__((always_inline)) inline Within meets_front(const TriangleBlock& bl
     slope += (left - right) * d[i];
     sum += (__builtin_fabs(left) + __builtin_fabs(right)) * __builtin_fabs(double{d[i]});
   }
-  // Twice the bound of is_left_behind(), so that every rounding of the formula in float64 has the
-  // same sign. Otherwise, results would depend on whether the compiler fuses multiply-adds.
-  const double bound = sum * (16.02 * 0x1p-53) + 0x1p-600;
+  const double bound = sum * kTripleProductError + 0x1p-600;
   if (slope < -bound) return Within::yes;
   return slope > bound ? Within::no : Within::unsure;
 }

@@ -38,7 +38,7 @@ class FewTrianglesWalk {
   /// The rays that may hit a triangle.
   struct Candidates {
     Lanes maybe, certain;  ///< as in VolumeTest
-    Lanes unsure = 0;      ///< lanes of `maybe` that may pass through an open front
+    Lanes unsure = 0;      ///< lanes of `maybe` that may pass through an open side
   };
   /// The rays that may hit a facet.
   struct FacetHits {
@@ -139,7 +139,7 @@ class FewTrianglesWalk {
     Lanes first = hits.maybe & ~hits.second & ~equal_to<N>(omitted_id, first_id);
     Lanes second = is_pair ? hits.maybe & ~hits.first & ~equal_to<N>(omitted_id, second_id) : 0;
     if ((first | second) == 0) return;
-    if (tree_.open_fronts == nullptr && !is_masked(tree_, first_id) &&
+    if (tree_.open.triangles == nullptr && !is_masked(tree_, first_id) &&
         !is_masked(tree_, second_id)) {
       const Lanes certain = certain_of(hits) & (first | second);
       const Lanes nearer =
@@ -171,7 +171,7 @@ class FewTrianglesWalk {
                                              Group& group) {
     const FewTriangles::Entry& triangle = tree_.few->entries[number];
     Candidates rays{.maybe = maybe, .certain = certain_of(hits)};
-    if (rays.maybe != 0 && is_open_front(tree_, triangle.id)) pass_fronts(triangle, rays);
+    if (rays.maybe != 0 && is_open(tree_, triangle.id)) pass_open_sides(triangle, rays);
     // As in a tree, few of the rays in a triangle's plane enter its box before their nearest hits.
     if (rays.maybe != 0)
       rays.maybe &= rays_entering<N>(stream_, first_, triangle.box, group.best_hi);
@@ -182,15 +182,16 @@ class FewTrianglesWalk {
     if (kAny) group.rays &= without_hit();
   }
 
-  /// Removes the rays that pass through the front of an open triangle.
-  void pass_fronts(const FewTriangles::Entry& triangle, Candidates& rays) const {
+  /// Removes the rays that pass through the open side of a triangle.
+  void pass_open_sides(const FewTriangles::Entry& triangle, Candidates& rays) const {
     const TriangleBlock& block = tree_.blocks[triangle.slot / kWidth];
     for (Lanes rest = rays.maybe; rest != 0; rest &= rest - 1) {
       const int lane = first_lane(rest), ray = first_ + lane;
       const float d[3] = {stream_.d[0][ray], stream_.d[1][ray], stream_.d[2][ray]};
-      const Within front = meets_front(block, static_cast<int>(triangle.slot % kWidth), d);
-      if (front == Within::yes) rays.maybe &= ~(Lanes{1} << lane);
-      if (front == Within::unsure) rays.unsure |= Lanes{1} << lane;
+      const int k = static_cast<int>(triangle.slot % kWidth);
+      const Within passes = meets_open_side(tree_, block, k, d);
+      if (passes == Within::yes) rays.maybe &= ~(Lanes{1} << lane);
+      if (passes == Within::unsure) rays.unsure |= Lanes{1} << lane;
     }
   }
 

@@ -12,6 +12,12 @@
 
 namespace microtrace {
 
+/// The triangles through which rays pass if they arrive at one of the sides.
+struct OpenSide {
+  const std::uint32_t* triangles = nullptr;  ///< one bit per primitive; null: there are none
+  bool is_back = false;                      ///< the side is the back instead of the front
+};
+
 struct TreeView {
   const WideNode* nodes;
   const TriangleBlock* blocks;
@@ -26,8 +32,7 @@ struct TreeView {
   const FewTriangles* few = nullptr;
   bool few_are_all = true;
   FewTriangles::Box rest{};  ///< contains what the nodes don't leave out, unless few_are_all
-  /// One bit per primitive, or null. Rays of streams pass through the fronts of these triangles.
-  const std::uint32_t* open_fronts = nullptr;
+  OpenSide open{};           ///< for the rays of streams and packets
   /// One bit per primitive, or null. Hits of rays of streams with these triangles count only where
   /// the triangles are visible, see StreamFallback.
   const std::uint32_t* masked = nullptr;
@@ -245,13 +250,13 @@ struct Kernels {
   /// t_min, d, t_max. The caller has set the packet's order. Returns false if the origins differ,
   /// or if a ray is invalid or exceeds the limits; the packet is then unusable.
   bool (*fill_packet)(const float* rays, int count, KernelPacket& packet);
-  /// Does what `closest` does for all rays of a filled packet.
+  /// Does what `closest` does for all rays of a filled packet, but passes through open sides. If
+  /// the side is uncertain, `slow` decides.
   void (*closest_of_packet)(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow);
   /// Sets the members of a stream below the dashed line, without hits.
   void (*prepare_stream)(KernelStream& stream);
-  /// Does what `closest` does for all rays of a prepared stream, but passes through open_fronts,
-  /// for which `slow` decides if a ray's side is uncertain, and masked triangles that aren't
-  /// visible.
+  /// Does what `closest` does for all rays of a prepared stream, but passes through open sides, for
+  /// which `slow` decides if a ray's side is uncertain, and masked triangles that aren't visible.
   void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
   /// Finds any hit within the interval of each ray that has no hit yet, with the same exceptions.
   void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);

@@ -195,8 +195,7 @@ class OcclusionPacketWalk {
                                     begin, limit);
         Lanes maybe = test.maybe & lanes;
         if (maybe != 0) maybe &= ~equal_to<N>(stream_.omitted_id + at, block.id[k]);
-        if (maybe != 0 && is_open_front(tree_, block.id[k]))
-          maybe &= not_in_front(block, k, at, maybe);
+        if (maybe != 0 && is_open(tree_, block.id[k])) maybe &= not_passing(block, k, at, maybe);
         if (maybe == 0) continue;
         const Interval<F> t = interval(test.height, test.size, test.height_error, test.size_error);
         const Lanes before = less<N>(t.hi, t_max), after = less<N>(t_max, t.lo);
@@ -216,20 +215,21 @@ class OcclusionPacketWalk {
     });
   }
 
-  // Returns those of the given rays, starting at ray `at`, that arrive at the back of a triangle.
+  // Returns those of the given rays, starting at ray `at`, that don't arrive at the open side of a
+  // triangle.
   // Rays whose side is uncertain are decided by the fallback.
-  Lanes not_in_front(const TriangleBlock& block, int k, int at, Lanes rays) {
-    Lanes behind = 0;
+  Lanes not_passing(const TriangleBlock& block, int k, int at, Lanes rays) {
+    Lanes closed = 0;
     std::uint64_t unsure = 0;
     for (; rays != 0; rays &= rays - 1) {
       const int ray = at + first_lane(rays);
       const float d[3] = {stream_.d[0][ray], stream_.d[1][ray], stream_.d[2][ray]};
-      const Within front = meets_front(block, k, d);
-      if (front == Within::no) behind |= rays & (~rays + 1);
-      if (front == Within::unsure) unsure |= std::uint64_t{1} << (ray - first_);
+      const Within passes = meets_open_side(tree_, block, k, d);
+      if (passes == Within::no) closed |= rays & (~rays + 1);
+      if (passes == Within::unsure) unsure |= std::uint64_t{1} << (ray - first_);
     }
     decide_by_fallback(block.id[k], unsure);
-    return behind;
+    return closed;
   }
 
   // The lanes in which a masked triangle is visible, and those in which it isn't.

@@ -1,6 +1,7 @@
 #include "accel/resolve/packet_resolver.hpp"
 
 #include "accel/filters/shape_filter.hpp"
+#include "accel/resolve/open_side.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -32,16 +33,27 @@ auto kernel_for(const ShapeKernels& kernels, const Quadric&) {
 }  // namespace
 
 PacketResolver::PacketResolver(const Primitives& primitives, const Kernels& kernels,
-                               std::span<const Ray> rays, const KernelPacket& packet)
-    : primitives_(&primitives), kernels_(&kernels.shapes), rays_(rays), order_(packet.order) {
+                               const OpenSide& open, std::span<const Ray> rays,
+                               const KernelPacket& packet)
+    : primitives_(&primitives),
+      kernels_(&kernels.shapes),
+      open_(open),
+      rays_(rays),
+      order_(packet.order) {
   std::ranges::fill(bounds_.id, kNoPrimitive);
   std::ranges::copy(packet.best_hi, bounds_.t_max);
+}
+
+void PacketResolver::consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) const {
+  const Ray& ray = ray_at(i);
+  if (!meets_open_side(*primitives_, open_, ray, id))
+    HitResolver(*primitives_, ray).consider(id, best);
 }
 
 void PacketResolver::consider_all(PrimitiveId id, KernelPacket& packet) {
   const auto consider_one = [&](std::size_t i) {
     ClosestSoFar best{.lo = packet.best_lo[i], .hi = packet.best_hi[i], .id = packet.best_id[i]};
-    HitResolver(*primitives_, ray_at(i)).consider(id, best);
+    consider(i, id, best);
     put(packet, i, best);
   };
   primitives_->visit(id, [&]<class AnyShape>(const AnyShape& shape) {
@@ -63,9 +75,8 @@ PacketFallback PacketResolver::fallback() {
   return {.context = this,
           .consider =
               [](void* context, int ray, std::uint32_t id, ClosestSoFar& best) {
-                const auto* resolver = static_cast<const PacketResolver*>(context);
-                const Ray& asked = resolver->ray_at(static_cast<std::size_t>(ray));
-                HitResolver(*resolver->primitives_, asked).consider(id, best);
+                static_cast<const PacketResolver*>(context)->consider(static_cast<std::size_t>(ray),
+                                                                      id, best);
               },
           .consider_all =
               [](void* context, std::uint32_t id, KernelPacket& packet) {

@@ -13,10 +13,10 @@ namespace microtrace {
 
 class PacketResolver {
  public:
-  /// The rays must be those of the packet, which must not have any hits yet. All arguments must
-  /// outlive this object.
-  PacketResolver(const Primitives& primitives, const Kernels& kernels, std::span<const Ray> rays,
-                 const KernelPacket& packet);
+  /// The rays must be those of the packet, which must not have any hits yet. They pass through open
+  /// sides. All arguments must outlive this object.
+  PacketResolver(const Primitives& primitives, const Kernels& kernels, const OpenSide& open,
+                 std::span<const Ray> rays, const KernelPacket& packet);
 
   /// Considers primitive `id` for all rays.
   void consider_all(PrimitiveId id, KernelPacket& packet);
@@ -30,9 +30,12 @@ class PacketResolver {
 
  private:
   [[nodiscard]] const Ray& ray_at(std::size_t i) const { return rays_[order_[i]]; }
+  /// Considers primitive `id` for the ray at place i.
+  void consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) const;
 
   const Primitives* primitives_;
   const ShapeKernels* kernels_;
+  OpenSide open_;
   std::span<const Ray> rays_;
   const std::uint8_t* order_;
   ShapeBounds bounds_;

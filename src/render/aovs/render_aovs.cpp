@@ -47,7 +47,7 @@ void render_aovs(const PreparedScene& scene, const Camera& camera, ImageSize siz
   const SceneView view(content_for(content, camera, size), camera, size);
   (void)view.content->bvh();
   const auto built = Clock::now();
-  const World world = view.world(1);
+  const World world = view.unlit_world(1);
   const AovPainter painter(world, camera, buffers, window);
   for_each_tile(
       window, threads, [&](const PixelRect& tile, const auto& /*poll*/) { painter.paint(tile); },

@@ -1,5 +1,6 @@
 #include "render/aovs/sights.hpp"
 
+#include "accel/intersect_fronts.hpp"
 #include "render/surfaces.hpp"
 #include "scene/surface/surface_finder.hpp"
 
@@ -15,7 +16,7 @@ static_assert(kMaxBatch == kSurfaceLanes);
 Sights::Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs)
     : world_(world), rays_(rays) {
   const std::span<std::optional<Hit>> hits = std::span(hits_).first(rays.size());
-  world.bvh.intersect(rays, hits);
+  intersect_fronts(world.bvh, rays, world.hidden_backs, hits);
   const auto find_seen = [&] {
     seen_ = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) seen_ |= std::uint64_t{hits[i].has_value()} << i;

@@ -1,3 +1,4 @@
+#include "accel/intersect_fronts.hpp"
 #include "render/compositing.hpp"
 #include "render/surfaces.hpp"
 
@@ -25,7 +26,7 @@ Sample composite(const World& world, const Ray& ray, const Hit& first) {
 void FlatIntegrator::trace(const World& world, std::span<const Ray> rays,
                            std::span<const SampleId> /*ids*/, std::span<Sample> samples) const {
   std::array<std::optional<Hit>, kMaxBatch> hits;
-  world.bvh.intersect(rays, std::span(hits).first(rays.size()));
+  intersect_fronts(world.bvh, rays, world.hidden_backs, std::span(hits).first(rays.size()));
   for (std::size_t i = 0; i < rays.size(); ++i) {
     samples[i] = Sample{};
     if (!hits[i]) continue;

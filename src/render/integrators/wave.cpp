@@ -1,5 +1,6 @@
 #include "render/integrators/wave.hpp"
 
+#include "accel/intersect_fronts.hpp"
 #include "render/kernels/dispatch.hpp"
 
 #include <algorithm>
@@ -70,7 +71,8 @@ void Wave::intersect(std::span<const Ray> camera_rays) {
     if (knows_blocked()) find_blocked();
     return;
   }
-  world_->bvh.intersect(camera_rays, std::span(camera_hits_).first(count_));
+  intersect_fronts(world_->bvh, camera_rays, world_->hidden_backs,
+                   std::span(camera_hits_).first(count_));
   for (std::size_t i = 0; i < count_; ++i)
     hits_[i] = camera_hits_[i] ? camera_hits_[i]->id : kNoPrimitive;
   if (shading_->masked() != nullptr) find_visible();

@@ -69,7 +69,7 @@ void Wave::find_blocked() {
   }
   const RayColumns rays = columns_of(open_rays_, count);
   const auto blockers = std::span(open_blockers_).first(count);
-  const HitFilter filter{.open_fronts = shading_->open_fronts(), .masked = masked()};
+  const HitFilter filter{.open = {.triangles = shading_->open_fronts()}, .masked = masked()};
   if (lighting_->has_surfaces())
     tracer_.closest(rays, filter, blockers);
   else

@@ -42,6 +42,11 @@ const Surfaces& PreparedScene::Content::surfaces() const {
       [&] { return make<Surfaces>(*scene_, bvh().primitives(), finder, *tables_); });
 }
 
+const HiddenBacks& PreparedScene::Content::hidden_backs() const {
+  const Primitives& primitives = bvh().primitives();
+  return hidden_backs_.get([&] { return make<HiddenBacks>(*scene_, primitives); });
+}
+
 const Shading& PreparedScene::Content::shading() const {
   const Primitives& primitives = bvh().primitives();
   return shading_.get([&] { return make<Shading>(*scene_, primitives, *tables_); });

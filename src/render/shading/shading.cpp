@@ -159,14 +159,7 @@ void Shading::find_open_fronts() {
       return;
     }
     const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
-    for (PrimitiveId id = entry.first_id; id < end;) {
-      if (id % 32 == 0 && end - id >= 32) {
-        open_fronts_[id / 32] = ~0U;
-        id += 32;
-      } else {
-        insert(open_fronts_.data(), id++);
-      }
-    }
+    insert(open_fronts_.data(), entry.first_id, end);
   }
 }
 

@@ -16,7 +16,11 @@ template <int N>
 class PacketWalk {
  public:
   PacketWalk(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow)
-      : tree_(tree), packet_(packet), slow_(slow), triangles_(packet, slow), scope_(tree) {
+      : tree_(tree),
+        packet_(packet),
+        slow_(slow),
+        triangles_(tree.open, packet, slow),
+        scope_(tree) {
     update_limits(kAllGroups);
   }
 

@@ -23,6 +23,8 @@ struct PacketView {
   float error[kWidth], size_error[kWidth], height_error[kWidth];
   Lanes seen[kGroups]{};  ///< for each group, the triangles that its rays do not certainly miss
   Lanes two_sided = 0;    ///< triangles for which the sign of n . d is not the same for all rays
+  /// Triangles that have their front or their back on the side of the origin, where rays arrive.
+  Lanes fronts = 0, backs = 0;
 
   PacketView(const TriangleBlock& block, const KernelPacket& packet, Groups groups) {
     for (int i = 0; i < kWidth; i += N) look_at(block, packet, groups, i);
@@ -78,6 +80,10 @@ struct PacketView {
     const F bound = (a_sum * greater(em1, em2) + m) * (15.01F * kUnit * packet.d_sum) + kTiny;
     const F size_bound = m * (15.01F * kUnit * packet.d_sum) + kTiny;
 
+    const F height_bound = a_sum * m * (17.01F * kUnit) + kTiny;
+    fronts |= less<N>(h, -height_bound) << i;
+    backs |= less<N>(height_bound, h) << i;
+
     const Range size = over(packet.beam, normal);
     // Computing the range takes as many roundings as n . d for one ray. Half of this bound would
     // suffice, because center and radius together do not exceed the largest |d|.
@@ -104,7 +110,7 @@ struct PacketView {
     microtrace::store<N>(height + i, h);
     microtrace::store<N>(error + i, bound);
     microtrace::store<N>(size_error + i, size_bound);
-    microtrace::store<N>(height_error + i, a_sum * m * (17.01F * kUnit) + kTiny);
+    microtrace::store<N>(height_error + i, height_bound);
   }
 };
 
