@@ -21,6 +21,7 @@ install(TARGETS microtrace)
 install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp PATTERN *.h)
 # Uses the folders of the repository, so that links between pages remain valid.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
+install(FILES third_party/meshoptimizer/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}/third_party/meshoptimizer)
 install(FILES python/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
 install(DIRECTORY python/notebooks DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN CMakeLists.txt EXCLUDE PATTERN *.scd EXCLUDE)

@@ -86,7 +86,8 @@ set(prefix ${WORK}/static)
 install_to(${prefix} Unspecified static)
 check_library()
 foreach(file lib/cmake/microtrace/microtraceConfig.cmake share/man/man1/microtrace.1 share/doc/microtrace/LICENSE
-        share/doc/microtrace/README.md share/doc/microtrace/docs/scene.schema.json)
+        share/doc/microtrace/README.md share/doc/microtrace/docs/scene.schema.json
+        share/doc/microtrace/third_party/meshoptimizer/LICENSE)
   string(REGEX REPLACE "^lib/" "${LIBDIR}/" file ${file})
   if(NOT EXISTS ${prefix}/${file} AND LIBDIR MATCHES "^lib")
     message(FATAL_ERROR "${file} was not installed")
