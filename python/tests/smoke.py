@@ -16,7 +16,7 @@ scenes = Path(sys.argv[1])
 warnings.simplefilter("error")
 with tempfile.TemporaryDirectory() as name:
     folder = Path(name)
-    for scene in ("knot", "textured", "textures", "draco", "meshopt"):
+    for scene in ("knot", "textured", "textures", "draco", "meshopt", "meshopt_khr"):
         prepared = mt.load(scenes / f"{scene}.glb").prepare()
         picture = mt.render(prepared, size=(64, 48), spp=2, aovs=["color", "depth"])
         for extension in ("png", "exr", "ppm"):

@@ -530,24 +530,26 @@ class CommandLine(ProgramTest):
 
     def test_missing_modules(self):
         """Tests that, without the decoder's module, an asset that requires the extension is refused, and that the message
-        names the package to install."""
+        names the package to install or the target to build."""
+        data = {"byteLength": 36, "uri": "data:application/octet-stream;base64," + "A" * 48}
         asset = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
-                 "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
-                              + "A" * 48}],
                  "bufferViews": [{"buffer": 0, "byteLength": 36}],
                  "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3, "bufferView": 0,
                                 "min": [0, 0, 0], "max": [0, 0, 0]},
                                {"componentType": 5121, "type": "SCALAR", "count": 3}],
                  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]}
         draco = {"bufferView": 0, "attributes": {"POSITION": 0}}
-        meshopt = {"buffer": 0, "byteLength": 36, "byteStride": 12, "count": 3,
+        meshopt = {"buffer": 1, "byteLength": 36, "byteStride": 12, "count": 3,
                    "mode": "ATTRIBUTES"}
-        for name, package, holder, value in [
-                ("KHR_draco_mesh_compression", "libdraco-dev",
+        for name, remedy, holder, value in [
+                ("KHR_draco_mesh_compression", "install libdraco-dev",
                  asset["meshes"][0]["primitives"][0], draco),
-                ("EXT_meshopt_compression", "libmeshoptimizer-dev",
+                ("EXT_meshopt_compression", "build the target microtrace_meshopt",
+                 asset["bufferViews"][0], meshopt),
+                ("KHR_meshopt_compression", "build the target microtrace_meshopt",
                  asset["bufferViews"][0], meshopt)]:
             holder["extensions"] = {name: value}
+            asset["buffers"] = [data, data]
             asset["extensionsUsed"] = [name]
             for required, code in [([name], 4), ([], 0)]:
                 asset["extensionsRequired"] = required
@@ -555,7 +557,8 @@ class CommandLine(ProgramTest):
                 result = self.run_program("a.gltf", "--size", "8x8", "-o", "-",
                                           env=environment(MICROTRACE_MODULE_PATH="/nowhere"))
                 self.assertEqual(result.returncode, code, result.stderr)
-                self.assertIn(package.encode(), result.stderr)
+                self.assertIn(remedy.encode(), result.stderr)
+                self.assertIn(name.encode(), result.stderr)
             del holder["extensions"]
 
     def test_usage_errors(self):

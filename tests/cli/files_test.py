@@ -77,11 +77,13 @@ class Files(ProgramTest):
 
     def test_outputs_over_a_buffer_that_is_not_read(self):
         (self.asset / "fallback.ppm").write_bytes(b"data")
-        self.gltf["buffers"].append({"byteLength": 4, "uri": "fallback.ppm",
-                                     "extensions": {"EXT_meshopt_compression": {"fallback": True}}})
-        self.gltf["extensionsUsed"] = ["EXT_meshopt_compression"]
-        self.write_asset()
-        self.assert_refused(2, "asset/model.gltf", "-o", "asset/fallback.ppm", says=["asset/fallback.ppm", "--output"])
+        buffers = list(self.gltf["buffers"])
+        for extension in ("EXT_meshopt_compression", "KHR_meshopt_compression"):
+            self.gltf["buffers"] = [*buffers, {"byteLength": 4, "uri": "fallback.ppm",
+                                               "extensions": {extension: {"fallback": True}}}]
+            self.gltf["extensionsUsed"] = [extension]
+            self.write_asset()
+            self.assert_refused(2, "asset/model.gltf", "-o", "asset/fallback.ppm", says=["asset/fallback.ppm", "--output"])
 
     def test_the_default_picture_over_a_texture(self):
         shutil.move(self.asset / "wood.png", self.asset / "model.png")

@@ -350,6 +350,12 @@ def compressed():
     return asset
 
 
+def unpacked(glb):
+    """Returns a GLB file in the fuzz target's special form."""
+    (size,) = struct.unpack_from("<I", glb, 12)
+    return glb[20:20 + size].rstrip() + b"\0" + glb[28 + size:]
+
+
 def main():
     project, folder = Path(sys.argv[1]), Path(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
@@ -370,6 +376,8 @@ def main():
             (folder / "gltf" / f"{make.__name__}.gltf").write_bytes(make().embedded())
     (folder / "gltf" / "basisu").write_bytes(basisu(project).packed())
     shutil.copy(project / "scenes/gltf/cube.glb", folder / "gltf" / "cube.glb")
+    for name in ("meshopt", "meshopt_khr"):
+        (folder / "gltf" / name).write_bytes(unpacked((project / f"scenes/gltf/{name}.glb").read_bytes()))
     (folder / "gltf.dict").write_text(dictionary(GLTF_WORDS.split()))
     for name, data in images().items():
         (folder / "image" / name).write_bytes(data)

@@ -1,5 +1,5 @@
-// Writes draco.glb and meshopt.glb. Each contains a sphere that only the module of the same name
-// can decode.
+// Writes draco.glb, meshopt.glb and meshopt_khr.glb. Each contains a sphere that only the module of
+// Draco or of meshoptimizer can decode.
 //
 // usage: compressed_assets FOLDER
 
@@ -64,12 +64,30 @@ std::string draco_bytes(const Sphere& sphere) {
   return {bytes.data(), bytes.size()};
 }
 
-std::string meshopt_positions(const Sphere& sphere) {
-  std::string bytes(meshopt_encodeVertexBufferBound(sphere.points(), 12), '\0');
+std::string meshopt_attributes(const void* values, std::size_t count, std::size_t stride,
+                               int version) {
+  meshopt_encodeVertexVersion(version);
+  std::string bytes(meshopt_encodeVertexBufferBound(count, stride), '\0');
   bytes.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(bytes.data()),
-                                          bytes.size(), sphere.positions.data(), sphere.points(),
-                                          12));
+                                          bytes.size(), values, count, stride));
   return bytes;
+}
+
+/// Returns colors for the filter COLOR: luma and chroma with 6 bits, alpha with 5 bits below a set
+/// bit.
+std::vector<std::uint8_t> stored_colors(const Sphere& sphere) {
+  std::vector<std::uint8_t> result;
+  for (std::size_t i = 0; i < sphere.positions.size(); i += 3) {
+    const auto channel = [&](std::size_t k) {
+      return static_cast<int>(std::round((sphere.positions[i + k] + 1) * 31.5F));
+    };
+    const int orange = (channel(0) - channel(2)) / 2, rest = channel(2) + orange;
+    const int green = (channel(1) - rest) / 2;
+    for (const int v : {rest + green, orange, green, 63}) {
+      result.push_back(static_cast<std::uint8_t>(v));
+    }
+  }
+  return result;
 }
 
 std::string meshopt_triangles(const Sphere& sphere) {
@@ -121,35 +139,54 @@ void save_draco(const std::filesystem::path& path, const Sphere& sphere) {
   save(path, "KHR_draco_mesh_compression", rest, bytes);
 }
 
-/// Returns the JSON of a compressed view. The uncompressed data belongs to the second buffer, which
-/// has no bytes.
-std::string view(const std::string& offset, const std::string& length, const char* mode,
-                 std::size_t from, std::size_t size, std::size_t count, const char* stride) {
-  const std::string step = std::string(R"("byteStride":)") + stride + ",";
-  return R"({"buffer":1,"byteOffset":)" + offset + R"(,"byteLength":)" + length + "," +
-         (std::string(mode) == "ATTRIBUTES" ? step : "") +
-         R"("extensions":{"EXT_meshopt_compression":{"buffer":0,"byteOffset":)" +
-         std::to_string(from) + R"(,"byteLength":)" + std::to_string(size) + "," + step +
-         R"("mode":")" + mode + R"(","count":)" + std::to_string(count) + "}}}";
-}
+/// The compressed views of an asset. The uncompressed data belong to the second buffer, which has
+/// no bytes.
+struct MeshoptViews {
+  const char* extension;
+  std::string bytes{};           // of the first buffer
+  std::size_t uncompressed = 0;  // size of the second buffer
+  std::string json{};            // of the views
 
-void save_meshopt(const std::filesystem::path& path, const Sphere& sphere) {
-  std::string positions = meshopt_positions(sphere);
-  const std::size_t size = positions.size(), start = (size + 3) / 4 * 4;
-  positions.resize(start);
-  const std::string triangles = meshopt_triangles(sphere);
-  const std::string first = std::to_string(sphere.points() * 12);
-  const std::string second = std::to_string(sphere.corners.size() * 4);
-  const std::string whole = std::to_string(sphere.points() * 12 + sphere.corners.size() * 4);
+  void add(const std::string& view, const char* mode, std::size_t count, std::size_t stride,
+           const std::string& more = "") {
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    const std::string step = R"("byteStride":)" + std::to_string(stride) + ",";
+    json += json.empty() ? "" : ",";
+    json += R"({"buffer":1,"byteOffset":)" + std::to_string(uncompressed) + R"(,"byteLength":)" +
+            std::to_string(count * stride) + "," + (std::string(mode) == "ATTRIBUTES" ? step : "") +
+            R"("extensions":{")" + extension + R"(":{"buffer":0,"byteOffset":)" +
+            std::to_string(bytes.size()) + R"(,"byteLength":)" + std::to_string(view.size()) + "," +
+            step + R"("mode":")" + mode + R"(","count":)" + std::to_string(count) + more + "}}}";
+    bytes += view;
+    uncompressed += count * stride;
+  }
+};
+
+/// Writes the sphere. With KHR_meshopt_compression, its attributes have version 1, and it has
+/// colors.
+void save_meshopt(const std::filesystem::path& path, const Sphere& sphere, const char* extension) {
+  const bool is_khr = std::string(extension).starts_with("KHR");
+  const std::size_t points = sphere.points();
+  MeshoptViews views{extension};
+  views.add(meshopt_attributes(sphere.positions.data(), points, 12, is_khr ? 1 : 0), "ATTRIBUTES",
+            points, 12);
+  views.add(meshopt_triangles(sphere), "TRIANGLES", sphere.corners.size(), 4);
+  std::string accessors_json = accessors(sphere, R"("bufferView":0,)", R"("bufferView":1,)");
+  if (is_khr) {
+    views.add(meshopt_attributes(stored_colors(sphere).data(), points, 4, 1), "ATTRIBUTES", points,
+              4, R"(,"filter":"COLOR")");
+    accessors_json.insert(
+        accessors_json.size() - 1,
+        R"(,{"bufferView":2,"componentType":5121,"normalized":true,"type":"VEC4","count":)" +
+            std::to_string(points) + "}");
+  }
   const std::string rest =
-      R"("buffers":[{"byteLength":)" + std::to_string(start + triangles.size()) +
-      R"(},{"byteLength":)" + whole +
-      R"(,"extensions":{"EXT_meshopt_compression":{"fallback":true}}}],"bufferViews":[)" +
-      view("0", first, "ATTRIBUTES", 0, size, sphere.points(), "12") + "," +
-      view(first, second, "TRIANGLES", start, triangles.size(), sphere.corners.size(), "4") + "]," +
-      accessors(sphere, R"("bufferView":0,)", R"("bufferView":1,)") +
-      R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}])";
-  save(path, "EXT_meshopt_compression", rest, positions + triangles);
+      R"("buffers":[{"byteLength":)" + std::to_string(views.bytes.size()) + R"(},{"byteLength":)" +
+      std::to_string(views.uncompressed) + R"(,"extensions":{")" + extension +
+      R"(":{"fallback":true}}}],"bufferViews":[)" + views.json + "]," + accessors_json +
+      R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0)" +
+      (is_khr ? R"(,"COLOR_0":2)" : "") + R"(},"indices":1,"material":0}]}])";
+  save(path, extension, rest, views.bytes);
 }
 
 }  // namespace
@@ -159,6 +196,7 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argv[1];
   const Sphere sphere = make_sphere();
   save_draco(folder / "draco.glb", sphere);
-  save_meshopt(folder / "meshopt.glb", sphere);
+  save_meshopt(folder / "meshopt.glb", sphere, "EXT_meshopt_compression");
+  save_meshopt(folder / "meshopt_khr.glb", sphere, "KHR_meshopt_compression");
   return 0;
 }

@@ -47,10 +47,9 @@ set(CMAKE_SHARED_LINKER_FLAGS_INIT "-Wl,-rpath-link,$libraries:$sysroot/lib/aarc
 set(CMAKE_MODULE_LINKER_FLAGS_INIT "-Wl,-rpath-link,$libraries:$sysroot/lib/aarch64-linux-gnu")
 END
 cmake -S "$source" -B "$folder/build" -G Ninja --toolchain "$folder/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
-  -DMICROTRACE_BUILD_TESTS=OFF -DMICROTRACE_BUILD_BENCHMARKS=OFF -DMICROTRACE_WITH_OPENIMAGEIO=OFF \
-  -DMICROTRACE_WITH_MESHOPT=OFF -DMICROTRACE_WITH_DRACO=OFF \
+  -DMICROTRACE_BUILD_TESTS=OFF -DMICROTRACE_BUILD_BENCHMARKS=OFF -DMICROTRACE_WITH_OPENIMAGEIO=OFF -DMICROTRACE_WITH_DRACO=OFF \
   -DMICROTRACE_WITH_HTTP=OFF -DMICROTRACE_WITH_MANUAL=OFF > "$folder/configure.log"
-cmake --build "$folder/build" --target microtrace microtrace_codecs microtrace_openexr
+cmake --build "$folder/build" --target microtrace microtrace_codecs microtrace_openexr microtrace_meshopt
 
 modules=$folder/build/src/lib/microtrace
 # Writes a script that runs a program of the other architecture.

@@ -17,7 +17,7 @@ from pathlib import Path
 
 TESTS = Path(__file__).resolve().parent
 SOURCE = TESTS.parents[1]
-PARTS = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "cmake", "docs", "include", "src"]
+PARTS = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "cmake", "docs", "include", "src", "third_party"]
 
 
 def read(path):
@@ -60,7 +60,7 @@ def main():
         else:
             copy_changed(SOURCE / part, copy / part)
     subprocess.run(["cmake", "--preset", "release", "-DMICROTRACE_BUILD_TESTS=OFF", "-DMICROTRACE_BUILD_BENCHMARKS=OFF",
-                    "-DMICROTRACE_WITH_OPENIMAGEIO=OFF", "-DMICROTRACE_WITH_MESHOPT=OFF", "-DMICROTRACE_WITH_DRACO=OFF",
+                    "-DMICROTRACE_WITH_OPENIMAGEIO=OFF", "-DMICROTRACE_WITH_DRACO=OFF",
                     "-DMICROTRACE_WITH_CODECS=OFF", "-DMICROTRACE_WITH_OPENEXR=OFF"], cwd=copy, check=True, stdout=subprocess.DEVNULL)
     build(copy)
     if is_caught(copy):

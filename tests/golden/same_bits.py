@@ -37,9 +37,10 @@ def build(name, compiler, flags):
     subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}",
                     "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={flags}",
                     "-DMICROTRACE_BUILD_TESTS=OFF", "-DMICROTRACE_BUILD_BENCHMARKS=OFF", "-DMICROTRACE_UNITY=ON",
-                    *(f"-DMICROTRACE_WITH_{module}=OFF" for module in ("OPENIMAGEIO", "MESHOPT", "DRACO"))],
+                    *(f"-DMICROTRACE_WITH_{module}=OFF" for module in ("OPENIMAGEIO", "DRACO"))],
                    check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", folder, "--target", "microtrace", "microtrace_codecs", "microtrace_openexr"],
+    subprocess.run(["cmake", "--build", folder, "--target", "microtrace", "microtrace_codecs", "microtrace_openexr",
+                    "microtrace_meshopt"],
                    check=True, stdout=subprocess.DEVNULL)
     return folder / "src/cli/microtrace"
 

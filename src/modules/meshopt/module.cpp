@@ -6,7 +6,7 @@
 
 #include <meshoptimizer.h>
 
-extern "C" __attribute__((visibility("default"))) int microtrace_decode_meshopt_v1(
+extern "C" __attribute__((visibility("default"))) int microtrace_decode_meshopt_v2(
     const MicrotraceMeshopt* view, void* destination) {
   const auto [bytes, size, count, stride, mode] = *view;
   int result = 1;

@@ -1,10 +1,7 @@
-#include "gltf/asset_builder.hpp"
-#include "io/gltf/bytes/meshopt_filters.hpp"
+#include "gltf/meshopt_asset.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <functional>
-#include <meshoptimizer.h>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -12,84 +9,13 @@
 namespace microtrace::tests {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
-constexpr const char* kExtension = "EXT_meshopt_compression";
-
-std::string text_of(const std::vector<unsigned char>& bytes, std::size_t size) {
-  return {reinterpret_cast<const char*>(bytes.data()), size};
-}
-
-std::string encoded_attributes(const std::string& bytes, std::size_t stride) {
-  const std::size_t count = bytes.size() / stride;
-  std::vector<unsigned char> out(meshopt_encodeVertexBufferBound(count, stride));
-  return text_of(out,
-                 meshopt_encodeVertexBuffer(out.data(), out.size(), bytes.data(), count, stride));
-}
-
-std::string encoded_triangles(const std::vector<unsigned>& indices) {
-  meshopt_encodeIndexVersion(1);
-  std::vector<unsigned char> out(meshopt_encodeIndexBufferBound(indices.size(), 1000));
-  return text_of(out,
-                 meshopt_encodeIndexBuffer(out.data(), out.size(), indices.data(), indices.size()));
-}
-
-std::string encoded_indices(const std::vector<unsigned>& indices) {
-  std::vector<unsigned char> out(meshopt_encodeIndexSequenceBound(indices.size(), 1000));
-  return text_of(
-      out, meshopt_encodeIndexSequence(out.data(), out.size(), indices.data(), indices.size()));
-}
-
-/// An asset whose views are compressed in buffer 0. Buffer 1 stands for the uncompressed data and
-/// has no bytes.
-struct CompressedAsset {
-  AssetBuilder asset;
-  std::size_t uncompressed = 0;  // size of buffer 1 in bytes
-
-  CompressedAsset() {
-    asset.json["extensionsUsed"] =
-        asset.json["extensionsRequired"] = {kExtension, "KHR_mesh_quantization"};
-  }
-
-  std::size_t add_view(const std::string& bytes, const char* mode, std::size_t count,
-                       std::size_t stride, const char* filter = nullptr) {
-    const std::size_t view = asset.add_view(bytes);
-    Json& json = asset.json["bufferViews"][view];
-    Json compression = json;
-    compression.update({{"mode", mode}, {"count", count}, {"byteStride", stride}});
-    if (filter != nullptr) compression["filter"] = filter;
-    json = {{"buffer", 1},
-            {"byteOffset", uncompressed},
-            {"byteLength", count * stride},
-            {"extensions", {{kExtension, compression}}}};
-    if (std::string(mode) == "ATTRIBUTES") json["byteStride"] = stride;
-    uncompressed += (count * stride + 3) / 4 * 4;
-    return view;
-  }
-
-  std::size_t add_accessor(std::size_t view, int type, const char* shape, std::size_t count,
-                           bool normalized = false) {
-    return asset.add("accessors", {{"bufferView", view},
-                                   {"componentType", type},
-                                   {"normalized", normalized},
-                                   {"count", count},
-                                   {"type", shape},
-                                   {"min", Json::array({0, 0, 0})},
-                                   {"max", Json::array({0, 0, 0})}});
-  }
-
-  [[nodiscard]] Json json() const {
-    Json result = Json::parse(asset.embedded());
-    result["buffers"].push_back(
-        {{"byteLength", uncompressed}, {"extensions", {{kExtension, {{"fallback", true}}}}}});
-    for (Json& accessor : result["accessors"]) {
-      if (accessor["type"] != "VEC3") accessor.erase("min"), accessor.erase("max");
-    }
-    return result;
-  }
-};
+constexpr MeshoptFormat kFormats[] = {kExtMeshopt, {kKhrMeshopt.extension, 0}, kKhrMeshopt};
 
 constexpr unsigned kSide = 12;  // number of vertices of a wavy grid along each side
 
@@ -117,11 +43,12 @@ std::vector<unsigned> grid_triangles() {
 
 /// Returns a grid of triangles. If `triangles` is false, a line strip, which is compressed in mode
 /// INDICES.
-CompressedAsset grid(bool triangles, const std::function<void(std::string&)>& spoil = {}) {
-  CompressedAsset result;
+MeshoptAsset grid(const MeshoptFormat& format, bool triangles,
+                  const std::function<void(std::string&)>& spoil = {}) {
+  MeshoptAsset result(format.extension);
   const std::vector<std::int16_t> positions = grid_positions();
   const std::vector<unsigned> corners = grid_triangles();
-  std::string vertices = encoded_attributes(bytes_of(positions), 8);
+  std::string vertices = encoded_attributes(bytes_of(positions), 8, format.version);
   std::string indices = triangles ? encoded_triangles(corners) : encoded_indices(corners);
   if (spoil) spoil(vertices), spoil(indices);
   const std::size_t vertex_view = result.add_view(vertices, "ATTRIBUTES", kSide * kSide, 8);
@@ -135,8 +62,15 @@ CompressedAsset grid(bool triangles, const std::function<void(std::string&)>& sp
   return result;
 }
 
-TEST(GltfMeshopt, TrianglesAndAttributesAreDecoded) {
-  const LoadedScene scene = load(grid(true).json().dump());
+std::string format_name(const ::testing::TestParamInfo<MeshoptFormat>& format) {
+  return std::string(format.param.extension, 3) + "Version" + std::to_string(format.param.version);
+}
+
+class GltfMeshopt : public ::testing::TestWithParam<MeshoptFormat> {};
+INSTANTIATE_TEST_SUITE_P(Formats, GltfMeshopt, ::testing::ValuesIn(kFormats), format_name);
+
+TEST_P(GltfMeshopt, TrianglesAndAttributesAreDecoded) {
+  const LoadedScene scene = load(grid(GetParam(), true).json().dump());
   EXPECT_THAT(scene.warnings, IsEmpty());
   const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
   ASSERT_EQ(mesh.positions.size(), kSide * kSide);
@@ -154,8 +88,8 @@ TEST(GltfMeshopt, TrianglesAndAttributesAreDecoded) {
   }
 }
 
-TEST(GltfMeshopt, IndexSequencesAreDecoded) {
-  const LoadedScene scene = load(grid(false).json().dump());
+TEST_P(GltfMeshopt, IndexSequencesAreDecoded) {
+  const LoadedScene scene = load(grid(GetParam(), false).json().dump());
   const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
   const std::vector<unsigned> corners = grid_triangles();
   ASSERT_EQ(mesh.segments.size() + 1, corners.size());
@@ -164,8 +98,8 @@ TEST(GltfMeshopt, IndexSequencesAreDecoded) {
   }
 }
 
-TEST(GltfMeshopt, ExponentialFilterGivesFloats) {
-  CompressedAsset asset;
+TEST_P(GltfMeshopt, ExponentialFilterGivesFloats) {
+  MeshoptAsset asset(GetParam().extension);
   const auto exponential = [](int exponent, int mantissa) {
     return static_cast<std::uint32_t>(exponent) << 24U |
            (static_cast<std::uint32_t>(mantissa) & 0xFFFFFFU);
@@ -175,7 +109,8 @@ TEST(GltfMeshopt, ExponentialFilterGivesFloats) {
       exponential(1, -7), exponential(10, 1), exponential(-20, 0),
       exponential(0, 0),  exponential(0, 1),  exponential(-23, 1)};
   const std::size_t view =
-      asset.add_view(encoded_attributes(bytes_of(words), 12), "ATTRIBUTES", 3, 12, "EXPONENTIAL");
+      asset.add_view(encoded_attributes(bytes_of(words), 12, GetParam().version), "ATTRIBUTES", 3,
+                     12, "EXPONENTIAL");
   asset.asset.add_object(
       {{"attributes", {{"POSITION", asset.add_accessor(view, kFloat32, "VEC3", 3)}}}});
   EXPECT_THAT(triangles_of(load(asset.json().dump()).scene.objects.at(0)),
@@ -183,58 +118,64 @@ TEST(GltfMeshopt, ExponentialFilterGivesFloats) {
                                      Vec3(0, 1, 1.1920928955078125e-07F)}));
 }
 
-template <typename Number>
-std::vector<Number> filtered(const std::vector<Number>& numbers,
-                             const std::function<void(std::string&)>& filter) {
-  std::string bytes = bytes_of(numbers);
-  filter(bytes);
-  std::vector<Number> result(numbers.size());
-  std::memcpy(result.data(), bytes.data(), bytes.size());
-  return result;
+/// Returns a triangle whose vertex colors are stored as YCoCg with 3 bits.
+Json colored_triangle(const MeshoptFormat& format) {
+  MeshoptAsset asset(format.extension);
+  const std::vector<std::uint8_t> colors = {1, 2, 255, 7, 3, 0, 0, 6, 4, 0, 3, 5};
+  const std::size_t view = asset.add_view(encoded_attributes(bytes_of(colors), 4, format.version),
+                                          "ATTRIBUTES", 3, 4, "COLOR");
+  const std::size_t color = asset.add_accessor(view, kUint8, "VEC4", 3, true);
+  asset.asset.add_object(
+      {{"attributes",
+        {{"POSITION", asset.asset.add_positions({Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)})},
+         {"COLOR_0", color}}}});
+  return asset.json();
 }
 
-TEST(GltfMeshopt, OctahedralFilterGivesUnitVectors) {
-  const auto decode8 = [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 4); };
-  EXPECT_THAT(filtered<std::int8_t>({0, 0, 127, 5, 127, 0, 127, 6, 0, -127, 127, -7}, decode8),
-              ElementsAre(0, 0, 127, 5, 127, 0, 0, 6, 0, -127, 0, -7));
-  // The lower pole maps to every corner of the square.
-  EXPECT_THAT(filtered<std::int8_t>({7, 7, 7, 0, -7, 7, 7, 0}, decode8),
-              ElementsAre(0, 0, -127, 0, 0, 0, -127, 0));
-  const auto decode16 = [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 8); };
-  EXPECT_THAT(filtered<std::int16_t>({0, 0, 511, 3, 0, 511, 511, -4}, decode16),
-              ElementsAre(0, 0, 32767, 3, 0, 32767, 0, -4));
-  // Meaningless input must not cause undefined behavior.
-  (void)filtered<std::int16_t>({1, -1, 0, 3, -32768, 32767, -1, 0, 0, 0, 0, 0}, decode16);
-}
-
-TEST(GltfMeshopt, QuaternionFilterRestoresTheLargestComponent) {
-  // The last number of each quaternion is 2047, the maximum of 12 bits, except for its two low
-  // bits. These are the index of the largest component: 3 and 1.
-  const std::vector<std::int16_t> stored = {0, 0, 0, 2047, 2047, 0, 0, 2045, 0, 0, 0, 0};
-  const auto decoded = filtered<std::int16_t>(stored, io::gltf::decode_quaternions);
-  EXPECT_THAT(std::vector(decoded.begin(), decoded.begin() + 4), ElementsAre(0, 0, 0, 32767));
-  EXPECT_THAT(std::vector(decoded.begin() + 4, decoded.begin() + 8),
-              ElementsAre(0, 23170, 23170, 0));
-}
-
-TEST(GltfMeshopt, FiltersEqualThoseOfTheLibraryUpToRounding) {
-  std::mt19937 random(3);
-  std::vector<std::int16_t> stored;
-  for (int i = 0; i < 2000; ++i) {
-    const int x = static_cast<int>(random() % 1023) - 511;
-    const int y = static_cast<int>(random() % 1023) - 511;
-    for (const int v : {x, y * (511 - std::abs(x)) / 511, 511, i}) {
-      stored.push_back(static_cast<std::int16_t>(v));
-    }
+TEST(GltfMeshoptExtensions, ColorFilterGivesColors) {
+  for (const int version : {0, 1}) {
+    const LoadedScene scene = load(colored_triangle({kKhrMeshopt.extension, version}).dump());
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
+    ASSERT_EQ(mesh.colors.size(), 3U);
+    const auto of_7 = [](int r, int g, int b, int a) {
+      const auto x = [](int v) { return std::round(static_cast<float>(v) * 255 / 7) / 255; };
+      return Vec4(x(r), x(g), x(b), x(a));
+    };
+    EXPECT_EQ(mesh.colors[0], of_7(4, 0, 0, 7));
+    EXPECT_EQ(mesh.colors[1], of_7(3, 3, 3, 4));
+    EXPECT_EQ(mesh.colors[2], of_7(1, 7, 1, 3));
   }
-  std::vector<std::int16_t> theirs = stored;
-  meshopt_decodeFilterOct(theirs.data(), 2000, 8);
-  const std::vector<std::int16_t> ours = filtered<std::int16_t>(
-      stored, [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 8); });
-  for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_NEAR(ours[i], theirs[i], 1) << i;
 }
 
-TEST(GltfMeshopt, ViolationsOfTheExtensionAreRefused) {
+TEST(GltfMeshoptExtensions, ZerosAreCompressedAThousandfold) {
+  constexpr std::size_t kCount = 100'000;
+  MeshoptAsset asset(kKhrMeshopt.extension);
+  const std::string bytes = encoded_attributes(std::string(kCount * 12, '\0'), 12, 1);
+  ASSERT_GT(kCount * 12 / bytes.size(), 500U);
+  const std::size_t view = asset.add_view(bytes, "ATTRIBUTES", kCount, 12);
+  asset.asset.add_object(
+      {{"attributes", {{"POSITION", asset.add_accessor(view, kFloat32, "VEC3", kCount)}}},
+       {"mode", 0}});
+  EXPECT_EQ(std::get<Mesh>(load(asset.json().dump()).scene.objects.at(0).shape).positions.size(),
+            kCount);
+}
+
+TEST(GltfMeshoptExtensions, OneExtensionExcludesTheOther) {
+  Json json = grid(kKhrMeshopt, true).json();
+  const std::size_t objects = load(json.dump()).scene.objects.size();
+  json["extensionsUsed"].push_back(kExtMeshopt.extension);
+  Json& extensions = json["bufferViews"][0]["extensions"];
+  extensions[kExtMeshopt.extension] = extensions[kKhrMeshopt.extension];
+  json["buffers"][1]["extensions"][kExtMeshopt.extension] = {{"fallback", false}};
+  const LoadedScene scene = load(json.dump());
+  EXPECT_EQ(scene.scene.objects.size(), objects);
+  EXPECT_THAT(texts(scene.warnings),
+              ElementsAre("/bufferViews/0/extensions/EXT_meshopt_compression: must not be combined "
+                          "with KHR_meshopt_compression; it is ignored (2 places)"));
+}
+
+TEST_P(GltfMeshopt, ViolationsOfTheExtensionAreRefused) {
   struct Case {
     std::size_t view;
     Json change;  // members of the extension object to change
@@ -244,8 +185,9 @@ TEST(GltfMeshopt, ViolationsOfTheExtensionAreRefused) {
       {0, {{"byteStride", 12}}, "byteStride"},
       {0, {{"count", 100}}, "gives the view"},
       {0, {{"filter", "QUATERNIONS"}}, ""},
+      {1, {{"filter", "COLOR"}}, "filter"},
       {0, {{"byteLength", 1 << 20}}, "beyond its buffer"},
-      {0, {{"byteLength", 1}}, "bytes"},
+      {0, {{"byteLength", 1}}, ""},
       {0, {{"byteOffset", 1e15}}, "beyond its buffer"},
       {0, {{"mode", "TRIANGLES"}}, "byteStride 2 or 4"},
       {0, {{"mode", "SOMETHING"}}, ""},
@@ -254,8 +196,8 @@ TEST(GltfMeshopt, ViolationsOfTheExtensionAreRefused) {
       {1, {{"buffer", 7}}, ""},
   };
   for (const Case& c : cases) {
-    Json json = grid(true).json();
-    json["bufferViews"][c.view]["extensions"][kExtension].update(c.change);
+    Json json = grid(GetParam(), true).json();
+    json["bufferViews"][c.view]["extensions"][GetParam().extension].update(c.change);
     try {
       (void)load(json.dump());
       ADD_FAILURE() << c.change << " accepted";
@@ -267,25 +209,27 @@ TEST(GltfMeshopt, ViolationsOfTheExtensionAreRefused) {
   }
 }
 
-TEST(GltfMeshopt, AttributesOfVersion1AreNamed) {
-  const Json json = grid(true, [](std::string& bytes) {
-                      if (bytes[0] == '\xa0') bytes[0] = '\xa1';
-                    }).json();
-  try {
-    (void)load(json.dump());
-    ADD_FAILURE() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.diagnostic().pointer, "/bufferViews/0/extensions/EXT_meshopt_compression");
-    EXPECT_THAT(error.diagnostic().message, HasSubstr("attributes of version 1"));
-  }
+TEST(GltfMeshoptExtensions, FeaturesOfKhrAreNamedInExt) {
+  const auto complaint = [](const Json& json) -> std::string {
+    try {
+      (void)load(json.dump());
+      return "accepted";
+    } catch (const Error& error) {
+      return error.diagnostic().pointer + ": " + error.diagnostic().message;
+    }
+  };
+  EXPECT_THAT(complaint(grid({kExtMeshopt.extension, 1}, true).json()),
+              AllOf(StartsWith("/bufferViews/0/extensions/EXT_meshopt_compression: "),
+                    HasSubstr("attributes of version 1")));
+  EXPECT_THAT(complaint(colored_triangle(kExtMeshopt)), HasSubstr("filter COLOR, which only KHR_"));
 }
 
-TEST(GltfMeshopt, CountsBeyondTheDataAreRefusedBeforeAllocation) {
-  Json json = grid(true).json();
+TEST_P(GltfMeshopt, CountsBeyondTheDataAreRefusedBeforeAllocation) {
+  Json json = grid(GetParam(), true).json();
   const double count = 4e8;
   json["bufferViews"][0]["byteLength"] = json["buffers"][1]["byteLength"] = count * 8;
   json["bufferViews"][0]["byteOffset"] = 0;
-  json["bufferViews"][0]["extensions"][kExtension]["count"] = count;
+  json["bufferViews"][0]["extensions"][GetParam().extension]["count"] = count;
   try {
     (void)load(json.dump());
     FAIL() << "accepted";
@@ -294,9 +238,9 @@ TEST(GltfMeshopt, CountsBeyondTheDataAreRefusedBeforeAllocation) {
   }
 }
 
-TEST(GltfMeshopt, DamagedDataGivesErrorsOrValidMeshes) {
+TEST_P(GltfMeshopt, DamagedDataGivesErrorsOrValidMeshes) {
   std::mt19937 random(4);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const auto spoil = [&random](std::string& bytes) {
       if (random() % 4 == 0) bytes.resize(1 + random() % bytes.size());
       for (unsigned k = random() % 4; k > 0; --k) {
@@ -304,7 +248,7 @@ TEST(GltfMeshopt, DamagedDataGivesErrorsOrValidMeshes) {
       }
     };
     try {
-      const LoadedScene scene = load(grid(i % 2 == 0, spoil).json().dump());
+      const LoadedScene scene = load(grid(GetParam(), i % 2 == 0, spoil).json().dump());
       for (const Object& object : scene.scene.objects) {
         const Mesh& mesh = std::get<Mesh>(object.shape);
         for (const auto& corners : mesh.triangles) {

@@ -1,9 +1,9 @@
 #include "io/gltf/bytes/buffers.hpp"
 
 #include "base/memory_account.hpp"
+#include "io/gltf/bytes/meshopt_extension.hpp"
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
-#include "io/gltf/document/extension.hpp"
 #include "io/gltf/document/properties.hpp"
 
 namespace microtrace::io::gltf {
@@ -27,9 +27,9 @@ bool is_bin(std::size_t index, const JsonValue& buffer) {
 /// Returns true for a fallback buffer. Each of its views also has compressed data, which is read
 /// instead.
 bool is_fallback(const Element& buffer) {
-  const auto compression = extension(buffer, "EXT_meshopt_compression");
+  const auto compression = meshopt_object(buffer);
   if (!compression) return false;
-  const JsonValue* fallback = compression->value->find("fallback");
+  const JsonValue* fallback = compression->at.value->find("fallback");
   return fallback != nullptr && fallback->boolean();
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/memory_account.hpp"
 #include "io/gltf/bytes/meshopt_abi.hpp"
+#include "io/gltf/bytes/meshopt_extension.hpp"
 #include "io/gltf/bytes/meshopt_filters.hpp"
 #include "io/gltf/document/extension.hpp"
 #include "io/module_function.hpp"
@@ -12,8 +13,14 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Maximum compression ratio of the format: 2 bits encode a group of 16 zero bytes.
-constexpr std::size_t kMaxRatio = 64;
+/// The first byte of attributes of version 1.
+constexpr char kAttributesVersion1 = '\xa1';
+
+/// Maximum compression ratio of the formats. In attributes of version 1, 2 bits encode 256 zero
+/// bytes; elsewhere, 2 bits encode at most 16 bytes.
+std::size_t max_ratio(std::string_view bytes) {
+  return bytes.starts_with(kAttributesVersion1) ? 1024 : 64;
+}
 
 struct Description {
   MicrotraceMeshoptMode mode = microtrace_meshopt_attributes;
@@ -25,8 +32,17 @@ void require(const Asset& asset, const Element& at, bool holds, const char* mess
   if (!holds) asset.fail(at, message);
 }
 
+bool is_filter_allowed(const Description& attributes) {
+  const auto& [mode, filter, count, stride] = attributes;
+  if (filter == "NONE" || filter == "EXPONENTIAL") return true;
+  if (filter == "OCTAHEDRAL" || filter == "COLOR") return stride == 4 || stride == 8;
+  return filter == "QUATERNION" && stride == 8;
+}
+
 /// Reads and checks the extension's properties.
-Description describe(const Asset& asset, const Element& at, const Model::BufferView& view) {
+Description describe(const Asset& asset, const MeshoptObject& object,
+                     const Model::BufferView& view) {
+  const Element& at = object.at;
   Description result;
   result.count = whole_number(asset, at, "count");
   result.stride = whole_number(asset, at, "byteStride", 256);
@@ -43,11 +59,10 @@ Description describe(const Asset& asset, const Element& at, const Model::BufferV
   if (mode == "ATTRIBUTES") {
     require(asset, at, result.stride % 4 == 0,
             "must have a byteStride that is a multiple of 4 for mode ATTRIBUTES");
-    const bool fits =
-        result.filter == "NONE" || result.filter == "EXPONENTIAL" ||
-        (result.filter == "OCTAHEDRAL" && (result.stride == 4 || result.stride == 8)) ||
-        (result.filter == "QUATERNION" && result.stride == 8);
-    require(asset, at, fits, "has a filter that is unknown or not allowed for this byteStride");
+    require(asset, at, result.filter != "COLOR" || object.extension == kKhrMeshopt,
+            "has the filter COLOR, which only KHR_meshopt_compression allows");
+    require(asset, at, is_filter_allowed(result),
+            "has a filter that is unknown or not allowed for this byteStride");
     return result;
   }
   result.mode = mode == "TRIANGLES" ? microtrace_meshopt_triangles : microtrace_meshopt_indices;
@@ -77,32 +92,38 @@ std::optional<std::string_view> compressed(const Asset& asset, const Element& at
 
 std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std::size_t view,
                                           const std::vector<Buffer>& buffers, std::size_t& left) {
-  const auto at = extension(asset.element("bufferViews", view), kMeshoptExtension);
-  if (!at) return std::nullopt;
-  const Description description = describe(asset, *at, model.buffer_views[view]);
-  const std::optional<std::string_view> bytes = compressed(asset, *at, buffers);
+  const auto object = meshopt_object(asset.element("bufferViews", view));
+  if (!object) return std::nullopt;
+  const Element& at = object->at;
+  const Description description = describe(asset, *object, model.buffer_views[view]);
+  const std::optional<std::string_view> bytes = compressed(asset, at, buffers);
   if (!bytes) return std::nullopt;
 
   static const ModuleFunction function =
       find_module_function(kMeshoptModuleFileName, kDecodeMeshoptName);
   if (function.address == nullptr) {
-    const std::string message =
-        "EXT_meshopt_compression can't be decoded: " + function.complaint +
-        "; install libmeshoptimizer-dev and build the target microtrace_meshopt";
-    if (asset.requires_extension(kMeshoptExtension)) {
-      asset.fail(*at, message, ErrorKind::unsupported);
+    const std::string message = std::string(object->extension) +
+                                " can't be decoded: " + function.complaint +
+                                "; build the target microtrace_meshopt";
+    if (asset.requires_extension(object->extension)) {
+      asset.fail(at, message, ErrorKind::unsupported);
     }
-    asset.warn(*at, message);
+    asset.warn(at, message);
     return std::nullopt;
   }
 
+  if (description.mode == microtrace_meshopt_attributes && object->extension == kExtMeshopt &&
+      bytes->starts_with(kAttributesVersion1)) {
+    asset.fail(at,
+               "holds attributes of version 1, which only KHR_meshopt_compression allows; "
+               "compress them by version 0");
+  }
   const std::size_t size = description.count * description.stride;
-  if (size / kMaxRatio > bytes->size()) {
-    asset.fail(*at, "states more elements than its bytes can hold");
+  if (size / max_ratio(*bytes) > bytes->size()) {
+    asset.fail(at, "states more elements than its bytes can hold");
   }
   if (size > left) {
-    asset.fail(*at, "brings the decompressed views to more than 4 GiB, the limit",
-               ErrorKind::limit);
+    asset.fail(at, "brings the decompressed views to more than 4 GiB, the limit", ErrorKind::limit);
   }
   left -= size;
   take_memory(size, "decompressed views");
@@ -113,16 +134,12 @@ std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std:
                               .stride = description.stride,
                               .mode = description.mode};
   if (reinterpret_cast<MicrotraceDecodeMeshopt>(function.address)(&job, result.data()) == 0) {
-    if (description.mode == microtrace_meshopt_attributes && bytes->starts_with('\xa1')) {
-      asset.fail(*at,
-                 "holds attributes of version 1, which only KHR_meshopt_compression allows; "
-                 "compress them by version 0");
-    }
-    asset.fail(*at, "holds invalid data for its mode, count and byteStride");
+    asset.fail(at, "holds invalid data for its mode, count and byteStride");
   }
   if (description.filter == "OCTAHEDRAL") decode_octahedral(result, description.stride);
   if (description.filter == "QUATERNION") decode_quaternions(result);
   if (description.filter == "EXPONENTIAL") decode_exponential(result);
+  if (description.filter == "COLOR") decode_colors(result, description.stride);
   return result;
 }
 

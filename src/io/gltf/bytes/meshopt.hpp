@@ -1,5 +1,5 @@
 #pragma once
-/// Decodes EXT_meshopt_compression.
+/// Decodes EXT_meshopt_compression and KHR_meshopt_compression.
 
 #include "io/gltf/bytes/buffers.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -11,8 +11,6 @@
 #include <vector>
 
 namespace microtrace::io::gltf {
-
-inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 
 /// Decompresses a buffer view. Returns nothing for an uncompressed view, or if the compressed data
 /// is absent. `left` is the remaining limit on decompressed bytes, which the call reduces. Without

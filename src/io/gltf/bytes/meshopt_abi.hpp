@@ -16,7 +16,7 @@ enum MicrotraceMeshoptMode {
 struct MicrotraceMeshopt {
   const unsigned char* bytes;
   std::size_t size;
-  std::size_t count, stride;  ///< in the ranges that EXT_meshopt_compression allows for the mode
+  std::size_t count, stride;  ///< in the ranges that the extensions allow for the mode
   MicrotraceMeshoptMode mode;
 };
 
@@ -27,6 +27,6 @@ using MicrotraceDecodeMeshopt = int (*)(const MicrotraceMeshopt* view, void* des
 namespace microtrace::io {
 
 inline constexpr char kMeshoptModuleFileName[] = "microtrace_meshopt.so";
-inline constexpr char kDecodeMeshoptName[] = "microtrace_decode_meshopt_v1";
+inline constexpr char kDecodeMeshoptName[] = "microtrace_decode_meshopt_v2";
 
 }  // namespace microtrace::io

@@ -1,5 +1,6 @@
 #include "io/gltf/bytes/meshopt_filters.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -35,6 +37,33 @@ void decode_octahedral(std::string& bytes) {
     v[0] = normalized<Integer>(x / length);
     v[1] = normalized<Integer>(y / length);
     v[2] = normalized<Integer>(z / length);
+    std::memcpy(&bytes[i], v.data(), sizeof v);
+  }
+}
+
+/// Returns the normalized integer that is nearest to value / one, clamped to [0, 1]. Returns 0 if
+/// `one` is 0.
+template <typename Integer>
+Integer rescaled(int value, int one) {
+  constexpr std::int64_t kGreatest = std::numeric_limits<Integer>::max();
+  if (one == 0) return 0;
+  return static_cast<Integer>((2 * std::clamp(value, 0, one) * kGreatest + one) / (2 * one));
+}
+
+template <typename Integer>
+void decode_colors(std::string& bytes) {
+  using Signed = std::make_signed_t<Integer>;
+  std::array<Integer, 4> v;
+  for (std::size_t i = 0; i + sizeof v <= bytes.size(); i += sizeof v) {
+    std::memcpy(v.data(), &bytes[i], sizeof v);
+    // The highest bit of alpha only marks the number of bits. Alpha has one bit less than the other
+    // components; its last bit is repeated.
+    const int one = (1 << std::bit_width(v[3])) - 1, alpha = v[3] & one >> 1;
+    const int luma = v[0], orange = static_cast<Signed>(v[1]), green = static_cast<Signed>(v[2]);
+    v[0] = rescaled<Integer>(luma + orange - green, one);
+    v[1] = rescaled<Integer>(luma + green, one);
+    v[2] = rescaled<Integer>(luma - orange - green, one);
+    v[3] = rescaled<Integer>(alpha << 1 | (alpha & 1), one);
     std::memcpy(&bytes[i], v.data(), sizeof v);
   }
 }
@@ -79,6 +108,10 @@ void decode_exponential(std::string& bytes) {
     const auto value = static_cast<float>(mantissa * power_of_two(exponent));
     std::memcpy(&bytes[i], &value, 4);
   }
+}
+
+void decode_colors(std::string& bytes, std::size_t stride) {
+  return stride == 4 ? decode_colors<std::uint8_t>(bytes) : decode_colors<std::uint16_t>(bytes);
 }
 
 }  // namespace microtrace::io::gltf

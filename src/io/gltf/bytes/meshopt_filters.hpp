@@ -1,6 +1,6 @@
 #pragma once
-/// The filters of EXT_meshopt_compression, appendix B. They give the same bytes on every platform,
-/// because they use only + - * / and sqrt in float32.
+/// The filters of KHR_meshopt_compression, appendix B. They give the same bytes on every platform,
+/// because they use only integers, and + - * / and sqrt in float32.
 
 #include <string>
 
@@ -14,5 +14,8 @@ void decode_quaternions(std::string& bytes);
 
 /// Decodes float32 numbers, stored as an exponent of 8 bits and a mantissa of 24 bits.
 void decode_exponential(std::string& bytes);
+
+/// Decodes colors of 4 or 8 bytes, stored as luma, chroma and alpha (YCoCg).
+void decode_colors(std::string& bytes, std::size_t stride);
 
 }  // namespace microtrace::io::gltf

@@ -1,5 +1,7 @@
+#include "io/gltf/bytes/meshopt_extension.hpp"
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/document/element_types.hpp"
+#include "io/gltf/document/extension.hpp"
 
 #include <cmath>
 #include <string>
@@ -8,6 +10,13 @@ namespace microtrace::io::gltf {
 namespace {
 
 constexpr double kElementArrayBuffer = 34963;
+
+/// Each of the two extensions excludes the other one in the same buffer or view.
+void check_compression(Asset& asset, const Element& at) {
+  if (!extension(at, kExtMeshopt) || !extension(at, kKhrMeshopt)) return;
+  asset.tolerate(at.member("extensions").member(kExtMeshopt),
+                 "must not be combined with KHR_meshopt_compression; it is ignored");
+}
 
 void check_view(Asset& asset, const Element& at) {
   if (at.member("byteLength").value->number() == 0)
@@ -62,7 +71,11 @@ void check_accessor(Asset& asset, const Element& at) {
 }  // namespace
 
 void check_storage(Asset& asset) {
+  for (std::size_t i = 0; i < asset.array("buffers").size(); ++i) {
+    check_compression(asset, asset.element("buffers", i));
+  }
   for (std::size_t i = 0; i < asset.array("bufferViews").size(); ++i) {
+    check_compression(asset, asset.element("bufferViews", i));
     check_view(asset, asset.element("bufferViews", i));
   }
   for (std::size_t i = 0; i < asset.array("accessors").size(); ++i) {

@@ -95,6 +95,11 @@ constexpr Extension image_row(string_view name, Support support, string_view ima
           .image_type = image_type};
 }
 
+constexpr Extension meshopt_row(string_view name) {
+  return {
+      name, Support::full, {{{Place::buffer, kMeshoptBuffer}, {Place::buffer_view, kMeshoptView}}}};
+}
+
 /// Returns the row of an extension without effect on pictures.
 constexpr Extension harmless_row(string_view name) {
   return {.name = name, .support = Support::harmless, .objects = {{{Place::anywhere}}}};
@@ -107,9 +112,7 @@ constexpr Extension kList[] = {
     harmless_row("EXT_instance_features"),
     harmless_row("EXT_mesh_features"),
     {"EXT_mesh_gpu_instancing", Support::full, {{{Place::node, kInstancing}}}},
-    {"EXT_meshopt_compression",
-     Support::full,
-     {{{Place::buffer, kMeshoptBuffer}, {Place::buffer_view, kMeshoptView}}}},
+    meshopt_row("EXT_meshopt_compression"),
     harmless_row("EXT_structural_metadata"),
     image_row("EXT_texture_avif", Support::none, "image/avif"),
     image_row("EXT_texture_webp", Support::full, "image/webp"),
@@ -124,9 +127,7 @@ constexpr Extension kList[] = {
      Support::full,
      {{{Place::root, kVariants}, {Place::primitive, kMappings}}}},
     {"KHR_mesh_quantization", Support::full},
-    {"KHR_meshopt_compression",
-     Support::none,
-     {{{Place::buffer, kMeshoptBuffer}, {Place::buffer_view, kMeshoptView}}}},
+    meshopt_row("KHR_meshopt_compression"),
     harmless_row("KHR_node_hoverability"),
     harmless_row("KHR_node_selectability"),
     {"KHR_node_visibility", Support::full, {{{Place::node, kVisibility}}}},
