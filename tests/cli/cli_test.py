@@ -549,7 +549,7 @@ class CommandLine(ProgramTest):
                 ("KHR_meshopt_compression", "build the target microtrace_meshopt",
                  asset["bufferViews"][0], meshopt)]:
             holder["extensions"] = {name: value}
-            asset["buffers"] = [data, data]
+            asset["buffers"] = [{**data, "extensions": {name: {"fallback": True}}} if value is meshopt else data, data]
             asset["extensionsUsed"] = [name]
             for required, code in [([name], 4), ([], 0)]:
                 asset["extensionsRequired"] = required
@@ -559,6 +559,7 @@ class CommandLine(ProgramTest):
                 self.assertEqual(result.returncode, code, result.stderr)
                 self.assertIn(remedy.encode(), result.stderr)
                 self.assertIn(name.encode(), result.stderr)
+                self.assertNotIn(b"nothing is drawn", result.stderr)
             del holder["extensions"]
 
     def test_usage_errors(self):

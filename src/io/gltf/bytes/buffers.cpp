@@ -1,6 +1,7 @@
 #include "io/gltf/bytes/buffers.hpp"
 
 #include "base/memory_account.hpp"
+#include "io/gltf/bytes/meshopt.hpp"
 #include "io/gltf/bytes/meshopt_extension.hpp"
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
@@ -87,7 +88,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
     const Element uri = at.member("uri");
     if (bin && is_bin(i, buffers[i])) {
       buffer.bytes = *bin;
-    } else if (is_fallback(at)) {
+    } else if (is_fallback(at) && can_decode_meshopt()) {
       if (buffers[i].find("uri") != nullptr) note_unread_resource(uri, folders);
       continue;
     } else if (buffers[i].find("uri") != nullptr) {

@@ -22,7 +22,8 @@ struct Buffer {
 };
 
 /// Loads buffers from the GLB file's `bin`, from data URIs and from files in `folders`. Expects
-/// buffers that check_schema has accepted. Warns about a buffer without any of these sources.
+/// buffers that check_schema has accepted. Skips the fallback buffers of compressed views if
+/// the views can be decoded. Warns about a buffer without any of these sources.
 /// Throws Error with the buffer's pointer: invalid_scene for a bad URI or too few bytes, io for a
 /// file, limit.
 [[nodiscard]] std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin,

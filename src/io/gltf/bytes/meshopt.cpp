@@ -88,7 +88,17 @@ std::optional<std::string_view> compressed(const Asset& asset, const Element& at
   return bytes->substr(offset, length);
 }
 
+const ModuleFunction& decoder() {
+  static const ModuleFunction function =
+      find_module_function(kMeshoptModuleFileName, kDecodeMeshoptName);
+  return function;
+}
+
 }  // namespace
+
+bool can_decode_meshopt() {
+  return decoder().address != nullptr;
+}
 
 std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std::size_t view,
                                           const std::vector<Buffer>& buffers, std::size_t& left) {
@@ -99,11 +109,9 @@ std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std:
   const std::optional<std::string_view> bytes = compressed(asset, at, buffers);
   if (!bytes) return std::nullopt;
 
-  static const ModuleFunction function =
-      find_module_function(kMeshoptModuleFileName, kDecodeMeshoptName);
-  if (function.address == nullptr) {
+  if (!can_decode_meshopt()) {
     const std::string message = std::string(object->extension) +
-                                " can't be decoded: " + function.complaint +
+                                " can't be decoded: " + decoder().complaint +
                                 "; build the target microtrace_meshopt";
     if (asset.requires_extension(object->extension)) {
       asset.fail(at, message, ErrorKind::unsupported);
@@ -133,7 +141,7 @@ std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std:
                               .count = description.count,
                               .stride = description.stride,
                               .mode = description.mode};
-  if (reinterpret_cast<MicrotraceDecodeMeshopt>(function.address)(&job, result.data()) == 0) {
+  if (reinterpret_cast<MicrotraceDecodeMeshopt>(decoder().address)(&job, result.data()) == 0) {
     asset.fail(at, "holds invalid data for its mode, count and byteStride");
   }
   if (description.filter == "OCTAHEDRAL") decode_octahedral(result, description.stride);

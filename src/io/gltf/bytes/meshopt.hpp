@@ -12,6 +12,9 @@
 
 namespace microtrace::io::gltf {
 
+/// Returns true if the decoder module is available.
+[[nodiscard]] bool can_decode_meshopt();
+
 /// Decompresses a buffer view. Returns nothing for an uncompressed view, or if the compressed data
 /// is absent. `left` is the remaining limit on decompressed bytes, which the call reduces. Without
 /// the decoder module, throws Error (unsupported) if the asset requires the extension; otherwise
