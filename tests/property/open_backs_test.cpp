@@ -41,24 +41,13 @@ struct Seen {
   std::size_t fronts = 0;  ///< rays that hit the front of an open triangle first
 };
 
-/// Compares rays with the same origin, or with different ones.
-void check_rays(Random& random, const Scene& scene, bool have_common_origin, Seen& seen) {
+/// Compares rays through a scene whose triangles in `bits` have open backs.
+void check_rays(const Scene& scene, const std::vector<std::uint32_t>& bits,
+                const std::vector<Ray>& rays, Seen& seen) {
   const Bvh bvh(scene);
   RayTracer tracer;
   tracer.begin(bvh);
-  const PrimitiveId count = bvh.primitives().count();
-  std::vector<std::uint32_t> bits(bit_set_size(count));
-  for (PrimitiveId id = 0; id < count; ++id) {
-    const bool on_mesh = std::holds_alternative<Mesh>(bvh.primitives().object(id).shape);
-    if (on_mesh && !random.one_in(4)) insert(bits.data(), id);
-  }
   const OpenSide open{.triangles = bits.data(), .is_back = true};
-  std::vector<Ray> rays;
-  const Vec3 common = origin(random, scene);
-  for (int i = 0; i < 100; ++i) {
-    const Vec3 o = have_common_origin ? common : origin(random, scene);
-    rays.push_back(random_ray(random, scene, o));
-  }
   std::vector<std::optional<Hit>> hits(rays.size());
   intersect_fronts(bvh, rays, bits.data(), hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -85,6 +74,23 @@ void check_rays(Random& random, const Scene& scene, bool have_common_origin, See
   }
 }
 
+/// Compares random rays with the same origin, or with different ones.
+void check_random_rays(Random& random, const Scene& scene, bool have_common_origin, Seen& seen) {
+  const Primitives primitives(scene);
+  std::vector<std::uint32_t> bits(bit_set_size(primitives.count()));
+  for (PrimitiveId id = 0; id < primitives.count(); ++id) {
+    const bool on_mesh = std::holds_alternative<Mesh>(primitives.object(id).shape);
+    if (on_mesh && !random.one_in(4)) insert(bits.data(), id);
+  }
+  std::vector<Ray> rays;
+  const Vec3 common = origin(random, scene);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 o = have_common_origin ? common : origin(random, scene);
+    rays.push_back(random_ray(random, scene, o));
+  }
+  check_rays(scene, bits, rays, seen);
+}
+
 void expect_enough(const Seen& seen) {
   EXPECT_GT(seen.passed, 300U);
   EXPECT_GT(seen.missed, 300U);
@@ -96,7 +102,7 @@ TEST_P(OpenBacks, CameraRaysPassThrough) {
   Seen seen;
   for (int round = 0; round < 400; ++round) {
     SCOPED_TRACE("scene " + std::to_string(round));
-    check_rays(random, random_scene(random), round % 2 == 0, seen);
+    check_random_rays(random, random_scene(random), round % 2 == 0, seen);
     if (HasFatalFailure()) return;
   }
   expect_enough(seen);
@@ -108,11 +114,39 @@ TEST_P(OpenBacks, CameraRaysPassThroughInstances) {
   for (int round = 0; round < 12; ++round) {
     for (const PlacementKind kind : kPlacementKinds) {
       SCOPED_TRACE("scene " + std::to_string(round));
-      check_rays(random, random_placed_scenes(random, kind).instanced, round % 2 == 0, seen);
+      check_random_rays(random, random_placed_scenes(random, kind).instanced, round % 2 == 0, seen);
       if (HasFatalFailure()) return;
     }
   }
   expect_enough(seen);
+}
+
+/// Returns a triangle with vertices that differ in all coordinates, and a point that differs from
+/// its plane only by the rounding of its coordinates.
+Mesh triangle_at(Random& random, Vec3& point) {
+  Mesh mesh;
+  for (int i = 0; i < 3; ++i) mesh.positions.push_back(random.in_cube(1));
+  mesh.triangles.push_back({0, 1, 2});
+  const float a = 0.25F + 0.2F * random.symmetric(), b = 0.25F + 0.2F * random.symmetric();
+  point = (1 - a - b) * mesh.positions[0] + a * mesh.positions[1] + b * mesh.positions[2];
+  return mesh;
+}
+
+TEST_P(OpenBacks, SidesAreExactNearTheOrigin) {
+  Random random(43);
+  Seen seen;
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE("scene " + std::to_string(round));
+    Vec3 point;
+    Scene scene;
+    scene.objects.push_back({.shape = triangle_at(random, point)});
+    std::vector<Ray> rays;
+    for (int i = 0; i < 64; ++i) rays.push_back(ray({point, random.in_cube(1)}));
+    check_rays(scene, {1}, rays, seen);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(seen.missed, 1000U);
+  EXPECT_GT(seen.fronts, 1000U);
 }
 
 }  // namespace

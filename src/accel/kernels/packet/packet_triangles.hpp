@@ -22,7 +22,6 @@ class PacketTriangles {
   void meet(const TriangleBlock& block, Groups groups) {
     forget_indices();
     PacketView<kViewLanes> view(block, packet_, groups);
-    unsure_sides_ = 0;
     if (open_.triangles != nullptr) pass_open_sides(block, groups, view);
     for_each_group(groups, [&](int group) {
       if (view.seen[group] == 0) return;
@@ -36,6 +35,7 @@ class PacketTriangles {
   static constexpr int kViewLanes = N < kWidth ? N : kWidth;
 
   // Removes the triangles of which the rays, which have a common origin, arrive at the open side.
+  // Where the side is uncertain, so is whether t is positive, and the fallback decides.
   void pass_open_sides(const TriangleBlock& block, Groups groups, PacketView<kViewLanes>& view) {
     Lanes seen = 0, open = 0;
     for_each_group(groups, [&](int group) { seen |= view.seen[group]; });
@@ -43,7 +43,6 @@ class PacketTriangles {
       const int k = first_lane(lanes);
       open |= Lanes{is_in(open_.triangles, block.id[k])} << k;
     }
-    unsure_sides_ = open & ~(view.fronts | view.backs);
     const Lanes passed = open & (open_.is_back ? view.backs : view.fronts);
     for_each_group(groups, [&](int group) { view.seen[group] &= ~passed; });
   }
@@ -102,7 +101,6 @@ class PacketTriangles {
     if (certain != maybe) look_at_edges(maybe, certain, i, triangle);
     const auto [lo, hi] = interval(q.height, q.size, q.height_error, q.size_error);
     certain &= less<N>(all<N>(16 * q.size_error), q.size);
-    if ((unsure_sides_ >> triangle.lane & 1U) != 0) certain = 0;
     const Lanes nearer =
         certain & less<N>(hi, best_lo) & less_equal<N>(load<N>(packet_.t_min + i), lo);
     const Lanes farther = certain & less<N>(best_hi, lo);
@@ -192,7 +190,6 @@ class PacketTriangles {
   const OpenSide& open_;
   KernelPacket& packet_;
   const PacketFallback& slow_;
-  Lanes unsure_sides_ = 0;       // the block's open triangles whose side at the origin is unsure
   std::uint32_t index_[kWidth];  // of the block's triangles in PacketHits, or kNone
 };
 
