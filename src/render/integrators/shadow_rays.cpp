@@ -59,7 +59,7 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
   // The blended triangles that queries of this number of rays pass.
   const auto passed_by = [&](std::size_t rays) {
     const auto passed = std::span(passed_).first(passes_blended ? rays : 0);
-    std::ranges::fill(passed, PassedTriangles{});
+    for (PassedTriangles& triangles : passed) triangles.clear();
     return passed;
   };
   // Adds the light of ray i after its query.
@@ -69,8 +69,8 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
     if (hits_[i] == kNoPrimitive || hits_[i] == target) {
       if (!passes_blended) return add(arrays, i, 1);
       // Those of a ray with a target may be behind it.
-      if (passed_[i].count <= (target ? 0 : PassedTriangles::kMost))
-        return add(arrays, i, passed_[i].transmittance);
+      if (target ? passed_[i].is_empty() : passed_[i].is_complete())
+        return add(arrays, i, passed_[i].transmittance());
     } else {
       const bool may_be_beside = target && shading.is_same_emitter(hits_[i], *target);
       // Only media within others hide surfaces.

@@ -27,7 +27,11 @@ void Shading::find_masked() {
     }
     const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
     entry.first_map = opacity_.add(*entry.mesh, looks_[entry.look]);
-    has_blended_ |= blends(looks_[entry.look]);
+    if (blends(looks_[entry.look])) {
+      has_blended_ = true;
+      insert(masked_.data(), entry.first_id, end);
+      continue;
+    }
     for (PrimitiveId id = entry.first_id; id < end; ++id) {
       if (opacity_.everywhere(entry.first_map + (id - entry.first_id)) != Opacity::visible)
         insert(masked_.data(), id);
@@ -90,9 +94,13 @@ float Shading::alpha_coverage(const ShadingPoint& point) {
 
 bool Shading::is_transparent_to_camera(const Ray& ray, PrimitiveId id,
                                        const Footprint& footprint) const {
-  const MaskedHit hit(entries_[primitives_.object_index(id)], ray, id);
+  const Entry& entry = entries_[primitives_.object_index(id)];
+  const TexturedMaterial& look = looks_[entry.look];
+  if (look.has_back &&
+      opacity_.everywhere(entry.first_map + (id - entry.first_id)) == Opacity::visible)
+    return false;
+  const MaskedHit hit(entry, ray, id);
   if (!hit.plane.are_sure()) return false;
-  const TexturedMaterial& look = looks_[hit.entry.look];
   if (hit.plane.slope > 0 && !look.has_back) return true;
   const Vec3 weights = hit.barycentrics();
   const Opacity known = opacity_.at(hit.entry.first_map + hit.triangle, weights.y, weights.z);

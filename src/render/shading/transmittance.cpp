@@ -1,6 +1,9 @@
 #include "render/shading/transmittance.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -23,7 +26,7 @@ bool hits_beside(const Shading& shading, const Ray& ray, const Hit& hit, Primiti
 float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
                     std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
                     std::uint64_t& beyond, AroundRay around) {
-  float transmittance = 1;
+  std::vector<std::pair<PrimitiveId, float>> factors;
   while (hit && hit->id != target && !(target && hits_beside(shading, ray, *hit, *target))) {
     const ShadingPoint point = shading.point(ray, *hit);
     const Medium* own = Shading::enclosed_medium(point);
@@ -31,12 +34,16 @@ float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, c
     if (NestedMediaTable::is_hidden(own, point.at.front, around.here))
       around.here = around.table->without(around.here, *own);
     else if (!(passes_backs && Shading::lets_light_in(point)))
-      transmittance *= 1 - shading.coverage(point, false);
-    if (transmittance == 0) return 0;
+      factors.emplace_back(hit->id, 1 - shading.coverage(point, false));
+    if (!factors.empty() && factors.back().second == 0) return 0;
     hit = bvh.next(ray, *hit);
     ++beyond;
   }
-  return transmittance;
+  // In the order of PassedTriangles.
+  std::ranges::sort(factors);
+  float product = 1;
+  for (const auto& [id, factor] : factors) product *= factor;
+  return product;
 }
 
 }  // namespace microtrace

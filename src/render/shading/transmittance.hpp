@@ -21,23 +21,39 @@ struct AroundRay {
   const NestedMedia* here = nullptr;  ///< null for a vacuum
 };
 
-/// The blended triangles that the query of a ray has passed, and the light that passes them. Only
-/// three or more factors have different products in different orders.
-struct PassedTriangles {
-  static constexpr std::uint32_t kMost = 2;
+/// The blended triangles that the query of a ray has passed, in ascending order, so that the
+/// product of their transmittances doesn't depend on the order in which they were found.
+class PassedTriangles {
+ public:
+  static constexpr std::uint32_t kMost = 16;
 
-  std::uint32_t count = 0;
-  std::array<PrimitiveId, kMost> ids{};
-  float transmittance = 1;  ///< valid if count is at most kMost
-
-  /// Adds a triangle, unless it is known.
+  void clear() { count_ = 0; }
+  /// Adds a triangle, unless it is known. If there are too many, they are no longer complete.
   void add(PrimitiveId id, float coverage) {
-    const std::uint32_t known = std::min(count, kMost);
-    if (std::find(ids.begin(), ids.begin() + known, id) != ids.begin() + known) return;
-    if (count < kMost) ids[count] = id;
-    count = known + 1;
-    transmittance *= 1 - coverage;
+    const std::uint32_t known = std::min(count_, kMost);
+    const auto end = ids_.begin() + known, at = std::lower_bound(ids_.begin(), end, id);
+    if (at != end && *at == id) return;
+    count_ = known + 1;
+    if (known == kMost) return;
+    const auto factor = factors_.begin() + (at - ids_.begin());
+    std::copy_backward(at, end, end + 1);
+    std::copy_backward(factor, factors_.begin() + known, factors_.begin() + known + 1);
+    *at = id;
+    *factor = 1 - coverage;
   }
+  [[nodiscard]] bool is_empty() const { return count_ == 0; }
+  [[nodiscard]] bool is_complete() const { return count_ <= kMost; }
+  /// The fraction of light that passes all triangles, which must be complete.
+  [[nodiscard]] float transmittance() const {
+    float product = 1;
+    for (std::uint32_t i = 0; i < count_; ++i) product *= factors_[i];
+    return product;
+  }
+
+ private:
+  std::uint32_t count_ = 0;  // greater than kMost if some are missing
+  std::array<PrimitiveId, kMost> ids_;
+  std::array<float, kMost> factors_;
 };
 
 /// What blocks all light along a ray.
