@@ -137,7 +137,7 @@ class OneTriangle {
     const std::vector<Ray> rays(kPacketRays, ray_);
     KernelPacket tile;
     ASSERT_TRUE(fill_packet(rays, kernels, tile));
-    PacketResolver judge(primitives_, kernels, rays, tile);
+    PacketResolver judge(primitives_, kernels, {}, rays, tile);
     kernels.closest_of_packet(tree(), tile, judge.fallback());
     for (int i = 0; i < kPacketRays; ++i)
       expect_right({tile.best_lo[i], tile.best_hi[i], tile.best_id[i]});
