@@ -179,12 +179,13 @@ References sorted(const Primitives& primitives, build::WorkerPool& pool) {
 }
 
 double cost_of(const BinaryNode& node, const build::AreaMeasure& area) {
-  if (node.plan.is_leaf())
-    return area(node.box) * build::kBlockCost * std::ceil(static_cast<double>(node.weight()) / 16);
+  if (node.plan().is_leaf())
+    return area(node.box()) * build::kBlockCost *
+           std::ceil(static_cast<double>(node.weight()) / 16);
   double cost = 0;
   for (const BinaryNode* child : build::WideChildren(node))
-    cost +=
-        cost_of(*child, area) + (child->plan.is_leaf() ? 0 : area(child->box) * build::kNodeCost);
+    cost += cost_of(*child, area) +
+            (child->plan().is_leaf() ? 0 : area(child->box()) * build::kNodeCost);
   return cost;
 }
 

@@ -88,7 +88,7 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
     return tree;
   }
   write_tree(binary, primitives, instances, pool, tree);
-  tree.bounds = bounds_of(binary.root.box);
+  tree.bounds = bounds_of(binary.root.box());
   return tree;
 }
 

@@ -51,7 +51,7 @@ class Builder {
     tree_.subtrees.resize(small.size());
     std::vector<CollapseCosts> costs(small.size());
     pool_.run(small.size(), [&](std::size_t i) {
-      tree_.subtrees[i].begin = small[i].node->begin;
+      tree_.subtrees[i].begin = small[i].node->begin();
       Subtree subtree{
           .references = PageVector<Reference>(kFewReferences),
           .scratch = PageVector<Reference>(std::max(kFewReferences, small[i].references.size())),
@@ -79,7 +79,7 @@ class Builder {
     std::vector<Set> open{whole()}, small;
     // Reused, because clearing new pages takes time.
     PageVector<std::uint16_t> scratch(open[0].references.size());
-    model_.area = AreaMeasure(tree_.root.box);
+    model_.area = AreaMeasure(tree_.root.box());
     while (!open.empty()) {
       const Set set = open.back();
       open.pop_back();
@@ -121,14 +121,16 @@ class Builder {
   // Creates the nodes of the two parts, of which the left one has `count` cells or references. Sets
   // neither their boxes nor their weights.
   Halves halves(const Set& set, NodeArena& arena, std::size_t count) const {
-    BinaryNode* pair = set.node->children = arena.allocate_pair();
+    BinaryNode* const pair = arena.allocate_pair();
+    const std::uint32_t begin = set.node->begin();
     const std::span<Reference> left = set.references.first(count);
     const std::uint32_t left_count =
         set.of_cells ? cells_.size(left) : static_cast<std::uint32_t>(count);
-    pair[0].begin = set.node->begin;
+    pair[0].set_begin(begin);
     pair[0].set({}, left_count, 0);
-    pair[1].begin = set.node->begin + left_count;
+    pair[1].set_begin(begin + left_count);
     pair[1].set({}, set.node->count() - left_count, 0);
+    set.node->set_children(pair);
     Set half = set;
     ++half.depth;
     Halves sets{half, half};
@@ -168,7 +170,7 @@ class Builder {
     if (is_deep(set) || mapping.is_degenerate()) return halve(set, subtree.arena);
     bins.clear(mapping.bins());
     bins.add(set.references, mapping);
-    const Split split = bins.best_split(mapping.bins(), AreaMeasure(set.node->box));
+    const Split split = bins.best_split(mapping.bins(), AreaMeasure(set.node->box()));
     if (!split.exists()) return halve(set, subtree.arena);
     const CentroidBoxes centroids =
         partition(set.references, mapping, split, subtree.scratch.data());
@@ -185,7 +187,7 @@ class Builder {
       bins[i].add(chunks[i], mapping);
     });
     for (std::size_t i = 1; i < bins.size(); ++i) bins[0].add(bins[i], mapping.bins());
-    const Split split = bins[0].best_split(mapping.bins(), AreaMeasure(set.node->box));
+    const Split split = bins[0].best_split(mapping.bins(), AreaMeasure(set.node->box()));
     if (!split.exists()) return halve(set, tree_.top);
     const CentroidBoxes centroids = partition_together(set.references, mapping, split,
                                                        scratch.first(set.references.size()), pool_);
@@ -201,7 +203,7 @@ class Builder {
     const bool is_block = has_triangles(node, tree_.triangle_weight) && blocks(node.weight()) == 1;
     if (is_block || node.count() <= 1) {
       for (std::size_t i = 0; i < set.references.size(); ++i)
-        tree_.ids[node.begin + i] = set.references[i].id();
+        tree_.ids[node.begin() + i] = set.references[i].id();
       return costs_of_leaf(node, model_);
     }
     const Halves sets = split_alone(set, subtree);
@@ -223,8 +225,8 @@ class Builder {
   // Plans the nodes above the subtrees, whose costs `next` yields from left to right.
   CollapseCosts plan_top(BinaryNode& node, std::vector<CollapseCosts>::const_iterator& next) {
     if (node.count() <= kSubtreeSize) return *next++;
-    const CollapseCosts left = plan_top(node.children[0], next);
-    return plan_collapse(node, model_, left, plan_top(node.children[1], next));
+    const CollapseCosts left = plan_top(node.children()[0], next);
+    return plan_collapse(node, model_, left, plan_top(node.children()[1], next));
   }
 
   Cells cells_;

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <bit>
+#include <cstdint>
+#include <cstring>
 #include <memory>
 
 namespace microtrace::build {
@@ -34,24 +36,62 @@ class CollapsePlan {
 /// A node's expected cost if it is collapsed to at most i + 1 subtrees.
 using CollapseCosts = std::array<float, 8>;
 
-/// A node with references whose ids start at BinaryTree::ids[begin]. The fourth lanes of the box
-/// hold their number and the sum of their weights.
-struct BinaryNode {
-  Box box;
-  BinaryNode* children = nullptr;  ///< two consecutive nodes; null for a leaf
-  std::uint32_t begin = 0;
-  CollapsePlan plan;
-
+/// A node with references whose ids start at BinaryTree::ids[begin()]. Large scenes have one for
+/// each four triangles, and two for each instance, so it has no room for what its children tell.
+class BinaryNode {
+ public:
+  /// Sets the bounds, the number of references and the sum of their weights.
   void set(const Box& bounds, std::uint32_t count, std::uint32_t weight) {
-    box = bounds;
-    box.lo[3] = std::bit_cast<float>(count);
-    box.hi[3] = std::bit_cast<float>(weight);
+    std::memcpy(lo_, &bounds.lo, sizeof lo_);
+    std::memcpy(hi_, &bounds.hi, sizeof hi_);
+    count_ = count;
+    weight_or_plan_ = weight;
   }
-  [[nodiscard]] std::uint32_t count() const { return std::bit_cast<std::uint32_t>(box.lo[3]); }
-  [[nodiscard]] std::uint32_t weight() const { return std::bit_cast<std::uint32_t>(box.hi[3]); }
+  /// Makes the node a leaf whose ids start here.
+  void set_begin(std::uint32_t begin) { link_ = std::uintptr_t{begin} << kTagBits | kLeaf; }
+  /// Makes two consecutive nodes the children. The second begins where the first ends.
+  void set_children(BinaryNode* children) { link_ = reinterpret_cast<std::uintptr_t>(children); }
+  /// Stores the plan of a node with children, in the place of its weight.
+  void set_plan(CollapsePlan plan) {
+    link_ |= kPlanned;
+    weight_or_plan_ = std::bit_cast<std::uint32_t>(plan);
+  }
+
+  [[nodiscard]] Box box() const {
+    return Box{.lo = {lo_[0], lo_[1], lo_[2], 0}, .hi = {hi_[0], hi_[1], hi_[2], 0}};
+  }
+  [[nodiscard]] std::uint32_t count() const { return count_; }
+  [[nodiscard]] std::uint32_t weight() const {
+    return is_planned() ? children()[0].weight() + children()[1].weight() : weight_or_plan_;
+  }
+  /// Returns two consecutive nodes, or null for a leaf.
+  [[nodiscard]] BinaryNode* children() const {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): set_children() converted it
+    return (link_ & kLeaf) == 0 ? reinterpret_cast<BinaryNode*>(link_ & ~kPlanned) : nullptr;
+  }
+  [[nodiscard]] std::uint32_t begin() const {
+    const BinaryNode* first = this;
+    while (const BinaryNode* const children = first->children()) first = children;
+    return static_cast<std::uint32_t>(first->link_ >> kTagBits);
+  }
+  [[nodiscard]] CollapsePlan plan() const {
+    return is_planned() ? std::bit_cast<CollapsePlan>(weight_or_plan_) : CollapsePlan();
+  }
+
+ private:
+  // Bits of link_. The addresses of nodes are multiples of 8.
+  static constexpr std::uintptr_t kLeaf = 1, kPlanned = 2;
+  static constexpr unsigned kTagBits = 2;
+
+  [[nodiscard]] bool is_planned() const { return (link_ & kPlanned) != 0; }
+
+  float lo_[3];
+  std::uint32_t count_;
+  float hi_[3];
+  std::uint32_t weight_or_plan_;
+  std::uintptr_t link_ = kLeaf;  // the children, or the begin of a leaf
 };
-// Large scenes have one for each four triangles, and two for each instance.
-static_assert(sizeof(BinaryNode) == 48);
+static_assert(sizeof(BinaryNode) == 40);
 
 [[nodiscard]] inline bool is_instance(const BinaryNode& node) {
   return node.count() == 1 && node.weight() == kInstanceWeight;

@@ -23,7 +23,7 @@ Distribution best_distribution(const CollapseCosts& left, const CollapseCosts& r
 }
 
 float leaf_cost(const BinaryNode& node, const CollapseModel& model) {
-  const float area = model.area(node.box);
+  const float area = model.area(node.box());
   if (is_instance(node)) return area * kInstanceCost;
   const bool of_triangles = has_triangles(node, model.triangle_weight);
   const bool of_one_kind =
@@ -47,34 +47,36 @@ CollapseCosts plan_collapse(BinaryNode& node, const CollapseModel& model, const 
                             const CollapseCosts& right) {
   const float as_leaf = leaf_cost(node, model);
   const Distribution whole = best_distribution(left, right, kWidth);
-  const float as_node = model.area(node.box) * kNodeCost + whole.cost;
-  node.plan.set_to_left(kWidth, whole.to_left);
-  node.plan.set_leaf(as_leaf <= as_node);
+  const float as_node = model.area(node.box()) * kNodeCost + whole.cost;
+  CollapsePlan plan;
+  plan.set_to_left(kWidth, whole.to_left);
+  plan.set_leaf(as_leaf <= as_node);
   CollapseCosts costs{std::min(as_leaf, as_node)};
   for (unsigned parts = 2; parts < kWidth; ++parts) {
     const Distribution split = best_distribution(left, right, parts);
     const bool is_better = split.cost < costs[parts - 2];
     costs[parts - 1] = is_better ? split.cost : costs[parts - 2];
-    node.plan.set_to_left(parts, is_better ? split.to_left : 0);
+    plan.set_to_left(parts, is_better ? split.to_left : 0);
   }
+  node.set_plan(plan);
   return costs;
 }
 
 WideChildren::WideChildren(const BinaryNode& node) {
-  const unsigned left = node.plan.to_left(kWidth);
-  cut(node.children[0], left);
-  cut(node.children[1], kWidth - left);
+  const unsigned left = node.plan().to_left(kWidth);
+  cut(node.children()[0], left);
+  cut(node.children()[1], kWidth - left);
 }
 
 void WideChildren::cut(const BinaryNode& node, unsigned parts) {
-  while (parts > 1 && node.plan.to_left(parts) == 0) --parts;
+  while (parts > 1 && node.plan().to_left(parts) == 0) --parts;
   if (parts == 1) {
     children_[count_++] = &node;
     return;
   }
-  const unsigned left = node.plan.to_left(parts);
-  cut(node.children[0], left);
-  cut(node.children[1], parts - left);
+  const unsigned left = node.plan().to_left(parts);
+  cut(node.children()[0], left);
+  cut(node.children()[1], parts - left);
 }
 
 }  // namespace microtrace::build

@@ -55,7 +55,7 @@ class Writer {
     triangle_weight_ = planned.triangle_weight;
     const BinaryNode& root = planned.root;
     Cursor cursor;
-    if (root.plan.is_leaf()) {
+    if (root.plan().is_leaf()) {
       reserve(leaf_size(root));
       tree_.root = write_leaf(root, cursor);
       return;
@@ -100,7 +100,7 @@ class Writer {
         Cursor cursor{.next = job.begin, .counts = filled[i].counts.data()};
         write_node(*job.node, job.slot, cursor);
         // The blocks take the memory of the ids and the nodes, which is released meanwhile.
-        release(job.node->begin, job.node->count());
+        release(job.node->begin(), job.node->count());
         const std::size_t subtree = subtree_of(job, planned);
         if (--open[subtree] == 0) planned.subtrees[subtree].nodes = {};
       });
@@ -115,7 +115,7 @@ class Writer {
   }
 
   [[nodiscard]] Places size_as_child(const BinaryNode& node) const {
-    return node.plan.is_leaf() ? leaf_size(node) : Places{.nodes = 1};
+    return node.plan().is_leaf() ? leaf_size(node) : Places{.nodes = 1};
   }
 
   // Returns the size of an inner node's subtree without the node itself.
@@ -123,14 +123,14 @@ class Writer {
     Places size;
     for (const BinaryNode* child : WideChildren(node)) {
       size += size_as_child(*child);
-      if (!child->plan.is_leaf()) size += size_below(*child);
+      if (!child->plan().is_leaf()) size += size_below(*child);
     }
     return size;
   }
 
   static std::size_t subtree_of(const Job& job, const BinaryTree& planned) {
     const auto after =
-        std::ranges::upper_bound(planned.subtrees, job.node->begin, {}, &BinarySubtree::begin);
+        std::ranges::upper_bound(planned.subtrees, job.node->begin(), {}, &BinarySubtree::begin);
     return static_cast<std::size_t>(after - planned.subtrees.begin()) - 1;
   }
 
@@ -145,7 +145,7 @@ class Writer {
     Places size;
     for (const BinaryNode* child : WideChildren(node)) {
       size += size_as_child(*child);
-      if (child->plan.is_leaf()) continue;
+      if (child->plan().is_leaf()) continue;
       if (is_job(node, *child))
         jobs_.push_back({.node = child, .size = {}, .begin = {}});
       else
@@ -181,8 +181,8 @@ class Writer {
     wide = empty_node();
     for (std::size_t i = 0; i < children.size(); ++i) {
       const BinaryNode& child = children[i];
-      set_box(wide, i, child.box);
-      if (child.plan.is_leaf()) {
+      set_box(wide, i, child.box());
+      if (child.plan().is_leaf()) {
         wide.child[i] = write_leaf(child, cursor);
       } else {
         slots[i] = cursor.next.nodes++;
@@ -191,7 +191,7 @@ class Writer {
     }
     for (std::size_t i = 0; i < children.size(); ++i) {
       const BinaryNode& child = children[i];
-      if (child.plan.is_leaf()) continue;
+      if (child.plan().is_leaf()) continue;
       if (is_job(node, child)) {
         Job& job = jobs_[job_++];
         job.begin = cursor.next;
@@ -210,7 +210,7 @@ class Writer {
     const std::span<const PrimitiveId> ids = ids_of(leaf);
     if (is_instance(leaf)) {
       const std::size_t instance = cursor.next.instances++;
-      tree_.instances[instance] = instances_.make(ids[0], leaf.box);
+      tree_.instances[instance] = instances_.make(ids[0], leaf.box());
       return child_ref::kFirstInstance + static_cast<ChildRef>(instance);
     }
     if (!has_triangles(leaf, triangle_weight_)) {
@@ -250,15 +250,16 @@ class Writer {
   static void for_each_leaf(const BinaryNode& node, const F& f) {
     const WideChildren children(node);
     for (const BinaryNode* child : children)
-      if (child->plan.is_leaf()) f(*child);
+      if (child->plan().is_leaf()) f(*child);
     for (const BinaryNode* child : children)
-      if (!child->plan.is_leaf()) for_each_leaf(*child, f);
+      if (!child->plan().is_leaf()) for_each_leaf(*child, f);
   }
 
   // Appends blocks with the triangles of a leaf.
   void fill(const BinaryNode& leaf, ShapeReader& shapes, PageVector<TriangleBlock>& blocks) const {
     std::optional<BlockFiller> filler;
-    for (std::size_t i = leaf.begin; i < leaf.begin + leaf.count(); ++i) {
+    const std::size_t begin = leaf.begin();
+    for (std::size_t i = begin; i < begin + leaf.count(); ++i) {
       // Leaves are filled mostly in the order of their ids.
       const std::size_t ahead = i + ShapeReader::kAhead;
       if (ahead < ids_.size()) shapes.prefetch(ids_[ahead]);
@@ -271,7 +272,7 @@ class Writer {
   }
 
   [[nodiscard]] std::span<const PrimitiveId> ids_of(const BinaryNode& leaf) const {
-    return ids_.subspan(leaf.begin, leaf.count());
+    return ids_.subspan(leaf.begin(), leaf.count());
   }
 
   const Primitives& primitives_;
