@@ -30,6 +30,7 @@
 #include <microtrace/math.hpp>
 #include <microtrace/memory.hpp>
 #include <microtrace/object_name.hpp>
+#include <microtrace/objects.hpp>
 #include <microtrace/page_allocator.hpp>
 #include <microtrace/path.hpp>
 #include <microtrace/placement.hpp>

@@ -14,10 +14,19 @@
 
 namespace microtrace {
 
-[[nodiscard]] inline Triangle triangle_of(const Mesh& mesh, std::size_t index) {
+[[nodiscard]] inline Triangle triangle_of(const PlacedMesh& mesh, std::size_t index) {
   const auto [a, b, c] = mesh.corners(index);
   return {.a = mesh.position(a), .b = mesh.position(b), .c = mesh.position(c)};
 }
+
+/// An object of a scene, by reference.
+struct PlacedObject {
+  std::size_t index;             ///< in Scene::objects
+  std::size_t run;               ///< index of the run that contains it
+  const Object* first;           ///< the first object of the run
+  PlacedMesh mesh;               ///< without arrays if the shape is not a mesh
+  PrimitiveId first_id, end_id;  ///< the range of its primitives
+};
 
 /// Gives access to all primitives of a scene by number. The scene must outlive this object and must
 /// not change.
@@ -32,16 +41,38 @@ class MICROTRACE_EXPORT Primitives {
 
   /// The index in Scene::objects of the object that contains the primitive.
   [[nodiscard]] std::size_t object_index(PrimitiveId id) const {
-    const std::uint32_t* const objects = &range_objects_[id >> range_shift_];
-    return objects[0] == objects[1] ? objects[0] : find_object(objects[0], objects[1], id);
+    const std::size_t run = run_index(id);
+    return is_run_single_ ? run : object_of(id).index;
+  }
+  /// The index in Objects::runs() of the run that contains the primitive.
+  [[nodiscard]] std::size_t run_index(PrimitiveId id) const {
+    const std::uint32_t* const runs = &range_runs_[id >> range_shift_];
+    return runs[0] == runs[1] ? runs[0] : find_run(runs[0], runs[1], id);
+  }
+  /// The object that contains the primitive.
+  [[nodiscard]] PlacedObject object_of(PrimitiveId id) const {
+    const std::size_t run = run_index(id);
+    const ObjectRun own = scene_->objects.run(run);
+    if (own.count > 1) return object_in(own, run, id);
+    return {.index = own.begin,
+            .run = run,
+            .first = own.first,
+            .mesh = own.mesh(0),
+            .first_id = first_ids_[run],
+            .end_id = first_ids_[run + 1]};
   }
   /// The lowest PrimitiveId in the object that contains the primitive.
-  [[nodiscard]] PrimitiveId first_id(PrimitiveId id) const { return first_ids_[object_index(id)]; }
+  [[nodiscard]] PrimitiveId first_id(PrimitiveId id) const { return object_of(id).first_id; }
   /// The lowest PrimitiveId in the object with this index.
-  [[nodiscard]] PrimitiveId first_id_of(std::size_t object) const { return first_ids_[object]; }
+  [[nodiscard]] PrimitiveId first_id_of(std::size_t object) const;
   /// The lowest PrimitiveId after those in the object with this index.
-  [[nodiscard]] PrimitiveId end_id_of(std::size_t object) const { return first_ids_[object + 1]; }
+  [[nodiscard]] PrimitiveId end_id_of(std::size_t object) const {
+    return object < scene_->objects.size() - 1 ? first_id_of(object + 1) : count_;
+  }
+  /// The lowest PrimitiveId in the run with this index.
+  [[nodiscard]] PrimitiveId first_id_of_run(std::size_t run) const { return first_ids_[run]; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
+  /// See Objects: in scenes with many instances, object_of() needs less memory.
   [[nodiscard]] const Object& object(PrimitiveId id) const {
     return scene_->objects[object_index(id)];
   }
@@ -49,15 +80,15 @@ class MICROTRACE_EXPORT Primitives {
   /// Calls f(shape) with the primitive's shape, which is a Triangle for a primitive of a mesh.
   template <class F>
   decltype(auto) visit(PrimitiveId id, F&& f) const {
-    const std::size_t k = object_index(id);
+    const PlacedObject object = object_of(id);
     return std::visit(
         [&](const auto& shape) -> decltype(auto) {
           if constexpr (is_mesh<decltype(shape)>)
-            return f(triangle_of(shape, id - first_ids_[k]));
+            return f(triangle_of(object.mesh, id - object.first_id));
           else
             return f(shape);
         },
-        scene_->objects[k].shape);
+        object.first->shape);
   }
 
   /// Returns the primitive's shape if it is a triangle, either a separate one or one of a mesh.
@@ -73,21 +104,23 @@ class MICROTRACE_EXPORT Primitives {
   /// Calls f(id, shape) for every primitive in the order of PrimitiveIds.
   template <class F>
   void for_each(F&& f) const {
-    for (std::size_t k = 0; k < scene_->objects.size(); ++k) for_each_of(k, f);
+    for (const ObjectRun& run : scene_->objects.runs())
+      for (std::size_t i = 0; i < run.count; ++i) for_each_of(run, i, f);
   }
-  /// Does the same for the primitives of the object with this index.
+  /// Does the same for the primitives of the object with index run.begin + i.
   template <class F>
-  void for_each_of(std::size_t object, F&& f) const {
+  void for_each_of(const ObjectRun& run, std::size_t i, F&& f) const {
+    PrimitiveId id = first_id_of(run.begin + i);
     std::visit(
         [&](const auto& shape) {
-          PrimitiveId id = first_ids_[object];
           if constexpr (is_mesh<decltype(shape)>) {
-            for (std::size_t i = 0; i < shape.triangles.size(); ++i) f(id++, triangle_of(shape, i));
+            const PlacedMesh mesh = run.mesh(i);
+            for (std::size_t k = 0; k < shape.triangles.size(); ++k) f(id++, triangle_of(mesh, k));
           } else {
             f(id, shape);
           }
         },
-        scene_->objects[object].shape);
+        run.first->shape);
   }
 
  private:
@@ -95,15 +128,17 @@ class MICROTRACE_EXPORT Primitives {
   static constexpr bool is_mesh = std::is_same_v<std::remove_cvref_t<T>, Mesh>;
 
   void make_ranges();
-  /// Searches the objects from `first` to `last`.
-  [[nodiscard]] std::size_t find_object(std::uint32_t first, std::uint32_t last,
-                                        PrimitiveId id) const;
+  /// Searches the runs from `first` to `last`.
+  [[nodiscard]] std::size_t find_run(std::uint32_t first, std::uint32_t last, PrimitiveId id) const;
+  /// Returns the object of a run that contains the primitive.
+  [[nodiscard]] PlacedObject object_in(const ObjectRun& own, std::size_t run, PrimitiveId id) const;
 
   const Scene* scene_;
-  std::vector<PrimitiveId> first_ids_;  // the lowest PrimitiveId of each object, and count_
+  std::vector<PrimitiveId> first_ids_;  // the lowest PrimitiveId of each run, and count_
   PrimitiveId count_ = 0;
-  // Element i is the object of primitive i << range_shift_. The last element is the last object.
-  std::vector<std::uint32_t> range_objects_;
+  bool is_run_single_;  // whether each run is a single object
+  // Element i is the run of primitive i << range_shift_. The last element is the last run.
+  std::vector<std::uint32_t> range_runs_;
   unsigned range_shift_ = 0;
 };
 

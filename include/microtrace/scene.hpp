@@ -7,7 +7,7 @@
 #include <microtrace/hit.hpp>
 #include <microtrace/light.hpp>
 #include <microtrace/material.hpp>
-#include <microtrace/object_name.hpp>
+#include <microtrace/objects.hpp>
 #include <microtrace/shape.hpp>
 #include <microtrace/texture.hpp>
 
@@ -18,13 +18,6 @@
 #include <vector>
 
 namespace microtrace {
-
-/// A shape and its material.
-struct Object {
-  ObjectName name{};
-  Shape shape;
-  std::optional<std::uint32_t> material{};  ///< index into Scene::materials; nothing: Material{}
-};
 
 struct NamedCamera {
   std::string name;
@@ -41,7 +34,7 @@ struct Scene {
   /// coordinates: world space translated so that this position becomes (0, 0, 0). Loaders translate
   /// scenes that are far from the file's origin, because float32 is most precise near zero.
   DVec3 origin{0};
-  std::vector<Object> objects;
+  Objects objects;
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<std::shared_ptr<const Image>> images;  ///< null if the image was not decoded

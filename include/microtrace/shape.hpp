@@ -58,13 +58,38 @@ struct Quadric {
   float a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0, i = 0, j = 0;
 };
 
+struct Mesh;
+
+/// A mesh at a place, which may differ from Mesh::placement. Refers to both.
+struct PlacedMesh {
+  const Mesh* arrays = nullptr;          ///< null: no mesh
+  const Placement* placement = nullptr;  ///< null: the arrays are in scene coordinates
+
+  PlacedMesh() = default;
+  PlacedMesh(const Mesh& mesh);  // NOLINT(google-explicit-constructor): placed by Mesh::placement
+  PlacedMesh(const Mesh& mesh, const Placement* at) : arrays(&mesh), placement(at) {}
+  explicit operator bool() const { return arrays != nullptr; }
+  [[nodiscard]] bool is_mirrored() const {
+    return placement != nullptr && placement->is_mirrored();
+  }
+
+  /// Returns a vertex in scene coordinates.
+  [[nodiscard]] Vec3 position(std::size_t vertex) const;
+  /// Returns the normal of a vertex in scene coordinates. The mesh must have normals.
+  [[nodiscard]] Vec3 normal(std::size_t vertex) const;
+  /// Returns the tangent of a vertex in scene coordinates. The mesh must have tangents.
+  [[nodiscard]] Vec4 tangent(std::size_t vertex) const;
+  /// Returns the indices of a triangle's vertices, counterclockwise as seen from the front.
+  [[nodiscard]] std::array<std::uint32_t, 3> corners(std::size_t triangle) const;
+};
+
 /// A mesh of indexed triangles. Each vertex attribute has a value for every vertex, or its array is
 /// empty. Arrays are made from vectors or borrow the caller's memory, see Array.
 ///
 /// Objects can share the arrays of a mesh and place it differently: copies of arrays share their
 /// values, and `placement` transforms the values when they are read. Such an object is called an
 /// instance. All results are those of a mesh with transformed arrays, bit for bit. Use position(),
-/// normal(), tangent() and corners() to read any mesh.
+/// normal(), tangent() and corners() to read any mesh. See Objects for millions of instances.
 struct Mesh {
   Array<Vec3> positions;  ///< in scene coordinates, or in the mesh's own space if it is placed
   /// Indices into positions. Vertices are counterclockwise as seen from the front.
@@ -82,29 +107,36 @@ struct Mesh {
   /// mirrors; null: the arrays are in scene coordinates. A placed mesh must not have segments.
   std::shared_ptr<const Placement> placement{};
 
-  /// Returns a vertex in scene coordinates.
+  /// See PlacedMesh.
   [[nodiscard]] Vec3 position(std::size_t vertex) const {
-    const Vec3& p = positions[vertex];
-    return placement ? Vec3(placement->point(DVec3(p))) : p;
+    return PlacedMesh(*this).position(vertex);
   }
-  /// Returns the normal of a vertex in scene coordinates. The mesh must have normals.
-  [[nodiscard]] Vec3 normal(std::size_t vertex) const {
-    const Vec3& n = normals[vertex];
-    return placement ? Vec3(placement->normal(DVec3(n))) : n;
-  }
-  /// Returns the tangent of a vertex in scene coordinates. The mesh must have tangents.
-  [[nodiscard]] Vec4 tangent(std::size_t vertex) const {
-    const Vec4& t = tangents[vertex];
-    if (!placement) return t;
-    return {Vec3(placement->direction(DVec3(t))), placement->is_mirrored() ? -t.w : t.w};
-  }
-  /// Returns the indices of a triangle's vertices, counterclockwise as seen from the front.
+  [[nodiscard]] Vec3 normal(std::size_t vertex) const { return PlacedMesh(*this).normal(vertex); }
+  [[nodiscard]] Vec4 tangent(std::size_t vertex) const { return PlacedMesh(*this).tangent(vertex); }
   [[nodiscard]] std::array<std::uint32_t, 3> corners(std::size_t triangle) const {
-    std::array<std::uint32_t, 3> result = triangles[triangle];
-    if (placement && placement->is_mirrored()) std::swap(result[1], result[2]);
-    return result;
+    return PlacedMesh(*this).corners(triangle);
   }
 };
+
+inline PlacedMesh::PlacedMesh(const Mesh& mesh) : PlacedMesh(mesh, mesh.placement.get()) {}
+inline Vec3 PlacedMesh::position(std::size_t vertex) const {
+  const Vec3& p = arrays->positions[vertex];
+  return placement != nullptr ? Vec3(placement->point(DVec3(p))) : p;
+}
+inline Vec3 PlacedMesh::normal(std::size_t vertex) const {
+  const Vec3& n = arrays->normals[vertex];
+  return placement != nullptr ? Vec3(placement->normal(DVec3(n))) : n;
+}
+inline Vec4 PlacedMesh::tangent(std::size_t vertex) const {
+  const Vec4& t = arrays->tangents[vertex];
+  if (placement == nullptr) return t;
+  return {Vec3(placement->direction(DVec3(t))), placement->is_mirrored() ? -t.w : t.w};
+}
+inline std::array<std::uint32_t, 3> PlacedMesh::corners(std::size_t triangle) const {
+  std::array<std::uint32_t, 3> result = arrays->triangles[triangle];
+  if (is_mirrored()) std::swap(result[1], result[2]);
+  return result;
+}
 
 /// Returns a copy of a placed mesh with transformed arrays and without a placement. Returns other
 /// meshes unchanged.

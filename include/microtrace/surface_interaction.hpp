@@ -18,7 +18,7 @@ namespace microtrace {
 struct TrianglePoint {
   /// Weights of a, b and c. None is negative, and their sum is 1 up to rounding.
   DVec3 barycentrics{1, 0, 0};
-  const Mesh* mesh = nullptr;            ///< the triangle's mesh; null for a single triangle
+  PlacedMesh mesh{};                     ///< without arrays for a single triangle
   std::array<std::uint32_t, 3> corners;  ///< vertex indices into the mesh
 };
 

@@ -29,6 +29,7 @@ struct Bvh::Impl {
             .others = tree.others.data(),
             .root = tree.root,
             .instances = tree.instances.empty() ? nullptr : tree.instances.data(),
+            .meshes = tree.views.data(),
             .scene_block = instance_kernels->scene_block};
   }
   /// The tree for arrays of rays and for queries near origins, of which `few` or `large` are tested

@@ -18,18 +18,19 @@ class CornerFinder {
 
   /// Prefetch the data that put() reads: first a triangle's indices, then its vertices.
   void fetch_indices(PrimitiveId id) {
-    if (finds_mesh(id)) __builtin_prefetch(&mesh_->triangles[id - first_]);
+    if (finds_mesh(id)) __builtin_prefetch(&object_.mesh.arrays->triangles[id - object_.first_id]);
   }
   void fetch_vertices(PrimitiveId id) {
     if (!finds_mesh(id)) return;
-    for (const std::uint32_t corner : mesh_->triangles[id - first_])
-      __builtin_prefetch(&mesh_->positions[corner]);
+    const Mesh& mesh = *object_.mesh.arrays;
+    for (const std::uint32_t corner : mesh.triangles[id - object_.first_id])
+      __builtin_prefetch(&mesh.positions[corner]);
   }
 
   /// Returns false if the primitive is not a mesh triangle.
   bool put(PrimitiveId id, HitBatch& batch, std::size_t i) {
     if (!finds_mesh(id)) return false;
-    const Triangle triangle = triangle_of(*mesh_, id - first_);
+    const Triangle triangle = triangle_of(object_.mesh, id - object_.first_id);
     put(batch.a, i, triangle.a);
     put(batch.b, i, triangle.b);
     put(batch.c, i, triangle.c);
@@ -38,8 +39,8 @@ class CornerFinder {
 
  private:
   bool finds_mesh(PrimitiveId id) {
-    if (id < first_ || id >= last_) look_up(id);
-    return mesh_ != nullptr;
+    if (id < object_.first_id || id >= object_.end_id) object_ = primitives_->object_of(id);
+    return static_cast<bool>(object_.mesh);
   }
 
   static void put(float (&column)[3][kHitBatch], std::size_t i, const Vec3& v) {
@@ -48,16 +49,8 @@ class CornerFinder {
     column[2][i] = v.z;
   }
 
-  void look_up(PrimitiveId id) {
-    const Object& object = primitives_->object(id);
-    mesh_ = std::get_if<Mesh>(&object.shape);
-    first_ = primitives_->first_id(id);
-    last_ = first_ + static_cast<PrimitiveId>(primitive_count(object.shape));
-  }
-
   const Primitives* primitives_;
-  const Mesh* mesh_ = nullptr;
-  PrimitiveId first_ = 0, last_ = 0;  // id range of the object that was looked up last
+  PlacedObject object_{};  // that was looked up last
 };
 
 struct RoundedT {

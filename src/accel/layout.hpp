@@ -16,12 +16,12 @@ using ChildRef = std::uint32_t;
 /// An inner node: the boxes of up to eight children, with one array per bounding plane. A box
 /// contains every point of its subtree. Unused slots have the empty box (lo = +infinity, hi =
 /// -infinity), which no ray enters.
-struct alignas(64) WideNode {
+struct alignas(32) WideNode {
   float lo_x[kWidth], lo_y[kWidth], lo_z[kWidth];
   float hi_x[kWidth], hi_y[kWidth], hi_z[kWidth];
   ChildRef child[kWidth];
 };
-static_assert(sizeof(WideNode) == 256);  // 224 bytes of data and padding to four cache lines
+static_assert(sizeof(WideNode) == 224);  // in four cache lines
 
 /// Up to eight triangles with every |coordinate| at most 2^38, which share up to sixteen vertices.
 /// The vertices a, b and c of a triangle are the scene's, rotated so that a is the vertex between
@@ -117,17 +117,17 @@ struct MeshTree {
 
 /// An instance in a tree over instances: a mesh's own tree and its place in the scene. See
 /// docs/exactness.md, "Instances".
-struct alignas(64) Instance {
-  const MeshTree* mesh;
+struct Instance {
   const double* scene_from_mesh;  ///< three columns of the matrix and the translation
   std::uint32_t first_id;         ///< added to the numbers of the mesh's primitives
-  std::uint32_t is_mirrored;      ///< 1 if front faces need another order of vertices, otherwise 0
+  std::uint32_t mesh : 31;        ///< index of the mesh's tree
+  std::uint32_t is_mirrored : 1;  ///< 1 if front faces need another order of vertices
   float mesh_from_scene[3][3];    ///< rows of the inverse matrix, without the translation
   /// Bounds the displacement of a ray that enters the instance, see InnerRay. Upper bounds of the
   /// part that does not depend on the ray.
   float reach;
 };
-static_assert(sizeof(Instance) == 64);  // a cache line
+static_assert(sizeof(Instance) == 56);  // a scene may have millions
 
 /// The encoding of ChildRef. Bits 31-30 hold the kind: 0 for a node, 1 for a leaf of triangle
 /// blocks, 2 for a leaf of other bounded primitives, 3 for an instance. A node has its index in

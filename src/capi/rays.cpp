@@ -101,7 +101,7 @@ mt_surface surface_of(const PreparedScene& scene, const Ray& ray, const Hit& hit
   result.uv[1] = uv.y;
   result.object = static_cast<std::uint32_t>(at.object);
   result.primitive = at.primitive;
-  result.material = scene.scene().objects[at.object].material.value_or(MT_NO_MATERIAL);
+  result.material = scene.scene().objects.first_of(at.object).material.value_or(MT_NO_MATERIAL);
   result.front = at.front ? 1 : 0;
   return result;
 }

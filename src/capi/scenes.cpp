@@ -196,7 +196,9 @@ mt_status mt_scene_from_instances(const mt_mesh* meshes, size_t mesh_count,
     std::vector<capi::ColoredMesh> shared = capi::meshes_of(meshes, mesh_count);
     LoadedScene loaded;
     for (auto& [mesh, material] : shared) loaded.scene.materials.push_back(std::move(material));
-    loaded.scene.objects.reserve(instance_count);
+    if (instance_count >= kNoPrimitive)
+      throw Error(ErrorKind::limit, "", "there are 2^32 - 1 instances or more");
+    std::vector<Placement> placements;  // of consecutive instances of a mesh
     for (std::size_t i = 0; i < instance_count; ++i) {
       const mt_instance& instance = instances[i];
       if (instance.mesh >= mesh_count)
@@ -204,9 +206,10 @@ mt_status mt_scene_from_instances(const mt_mesh* meshes, size_t mesh_count,
                     "instance " + std::to_string(i) + " is of mesh " +
                         std::to_string(instance.mesh) + ", but there are " +
                         std::to_string(mesh_count) + " meshes");
-      Mesh placed = shared[instance.mesh].mesh;
-      placed.placement = std::make_shared<const Placement>(capi::placement_of(instance));
-      loaded.scene.objects.push_back(capi::object_of(std::move(placed), instance.mesh));
+      placements.push_back(capi::placement_of(instance));
+      if (i + 1 < instance_count && instances[i + 1].mesh == instance.mesh) continue;
+      loaded.scene.objects.push_back_run(capi::object_of(shared[instance.mesh].mesh, instance.mesh),
+                                         std::exchange(placements, {}));
     }
     validate(loaded.scene);
     *scene = capi::prepared(std::move(loaded), threads);
@@ -233,7 +236,7 @@ const char* mt_scene_object_name(const mt_scene* scene, size_t object) {
     const std::scoped_lock lock(scene->names_mutex);
     auto name = scene->names.find(object);
     if (name == scene->names.end())
-      name = scene->names.emplace(object, objects[object].name.str()).first;
+      name = scene->names.emplace(object, objects.name(object).str()).first;
     return name->second.c_str();
   } catch (const std::bad_alloc&) {
     return nullptr;

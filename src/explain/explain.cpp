@@ -93,7 +93,7 @@ class Explainer {
   [[nodiscard]] ExplainedHit explain(const Hit& hit) const {
     const PrimitiveStages stages = stages_of(traced(), hit.id);
     const SurfaceInteraction at = interact(primitives(), ray_, hit);
-    const Object& object = world_.scene.objects[at.object];
+    const Object& object = world_.scene.objects.first_of(at.object);
     const Material& material = material_of(world_.scene, object);
     const DVec3 way = at.p - DVec3(ray_.o);
     return {.primitive = explain_primitive(traced(), hit.id, stages.hit),

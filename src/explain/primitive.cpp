@@ -36,13 +36,12 @@ PrimitiveStages stages_of(const TracedRay& traced, PrimitiveId id) {
 
 ExplainedPrimitive explain_primitive(const TracedRay& traced, PrimitiveId id, Stage decided_by) {
   const Primitives& primitives = traced.bvh.primitives();
-  const std::size_t object = primitives.object_index(id);
-  const Object& content = primitives.scene().objects[object];
+  const PlacedObject object = primitives.object_of(id);
   return {.id = id,
-          .object = object,
-          .name = content.name.str(),
-          .primitive = id - primitives.first_id_of(object),
-          .type = type_name(content.shape),
+          .object = object.index,
+          .name = primitives.scene().objects.name(object.index).str(),
+          .primitive = id - object.first_id,
+          .type = type_name(object.first->shape),
           .numbers = intersection_numbers(primitives, traced.ray, id),
           .decided_by = decided_by,
           .derivation = derivation_of(primitives, id)};

@@ -85,9 +85,9 @@ std::uint64_t memory_of_shared(const Scene& scene) {
                          image->samples);
   }
   SharedMeshes known;
-  for (const Object& object : scene.objects) {
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh != nullptr && mesh->placement && known.add(*mesh)) result += memory_of(*mesh);
+  for (const ObjectRun& run : scene.objects.runs()) {
+    const PlacedMesh mesh = run.mesh(0);
+    if (mesh.placement != nullptr && known.add(*mesh.arrays)) result += memory_of(*mesh.arrays);
   }
   return result;
 }

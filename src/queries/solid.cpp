@@ -29,9 +29,7 @@ Selection selection_of(const Primitives& primitives, std::optional<std::size_t> 
                 "the object must be one of the scene's " + std::to_string(count) +
                     ", numbered from 0, not " + std::to_string(*object));
   }
-  const std::uint64_t first = primitives.first_id_of(*object);
-  return {.first = first,
-          .end = first + primitive_count(primitives.scene().objects[*object].shape)};
+  return {.first = primitives.first_id_of(*object), .end = primitives.end_id_of(*object)};
 }
 
 }  // namespace

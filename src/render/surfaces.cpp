@@ -23,8 +23,8 @@ Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const Surfa
   for (const Material& material : scene.materials)
     for (const bool has_colors : {false, true}) entries_.push_back(entry_of(material, has_colors));
   for (const bool has_colors : {false, true}) entries_.push_back(entry_of({}, has_colors));
-  for (const Object& object : scene.objects) {
-    const Material& material = material_of(scene, object);
+  for (const ObjectRun& run : scene.objects.runs()) {
+    const Material& material = material_of(scene, *run.first);
     if (material.base_color_texture) make_map(material.base_color_texture->texture, tables);
   }
 }
@@ -87,7 +87,7 @@ DVec4 Surfaces::texel(const World& world, const TextureUse& use, const Ray& ray,
 }
 
 BaseColor Surfaces::base_color(const World& world, const Ray& ray, const Hit& hit) const {
-  const Material& material = material_of(scene_, primitives_.object(hit.id));
+  const Material& material = material_of(scene_, *primitives_.object_of(hit.id).first);
   const SurfaceInteraction at = interact(primitives_, ray, hit);
   if (!at.front && !material.double_sided) return {.is_culled = true};
   DVec4 product = DVec4(material.base_color) * at.color();
@@ -109,12 +109,10 @@ BaseColor Surfaces::base_color(const World& world, const Ray& ray, const Hit& hi
 }
 
 bool Surfaces::is_same_point(const Ray& ray, const Hit& a, const Hit& b) const {
-  const std::size_t object = primitives_.object_index(a.id);
-  if (a.t != b.t || object != primitives_.object_index(b.id)) return false;
-  const auto* mesh = std::get_if<Mesh>(&scene_.objects[object].shape);
-  if (mesh == nullptr) return false;
-  const PrimitiveId first = primitives_.first_id(a.id);
-  const Triangle one = triangle_of(*mesh, a.id - first), other = triangle_of(*mesh, b.id - first);
+  const PlacedObject object = primitives_.object_of(a.id);
+  if (a.t != b.t || !object.mesh || b.id < object.first_id || b.id >= object.end_id) return false;
+  const Triangle one = triangle_of(object.mesh, a.id - object.first_id),
+                 other = triangle_of(object.mesh, b.id - object.first_id);
   // Compares positions, because vertices with different indices coincide at texture seams.
   const auto is_corner = [&other](const Vec3& p) {
     return p == other.a || p == other.b || p == other.c;
@@ -125,7 +123,7 @@ bool Surfaces::is_same_point(const Ray& ray, const Hit& a, const Hit& b) const {
 }
 
 bool Surfaces::is_visible(const World& world, const Ray& ray, const Hit& hit) const {
-  switch (visibility(primitives_.object_index(hit.id))) {
+  switch (visibility(hit.id)) {
     case Visibility::always:
       return true;
     case Visibility::in_front:

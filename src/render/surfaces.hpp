@@ -46,16 +46,14 @@ class Surfaces {
            SharedTables& tables);
 
   [[nodiscard]] const SurfaceFinder& finder() const { return finder_; }
-  [[nodiscard]] Visibility visibility(std::size_t object) const {
-    return entry_at(object).visibility;
-  }
+  [[nodiscard]] Visibility visibility(PrimitiveId id) const { return entry_of(id).visibility; }
 
   [[nodiscard]] BaseColor base_color(const World& world, const Ray& ray, const Hit& hit) const;
 
   /// A faster base_color() for surfaces without textures and vertex colors, which are the most
   /// common ones. Null for other surfaces.
   [[nodiscard]] const Vec3* plain_color(const Ray& ray, const Hit& hit) const {
-    const Entry& entry = entry_at(primitives_.object_index(hit.id));
+    const Entry& entry = entry_of(hit.id);
     if (entry.kind == Kind::various) return nullptr;
     if (entry.kind == Kind::one_sided && !is_front(ray, hit)) return nullptr;
     return &entry.color;
@@ -64,7 +62,7 @@ class Surfaces {
   /// The base color at all hits of a primitive, if its surface also has two sides. Null for other
   /// surfaces.
   [[nodiscard]] const Vec3* plain_color(PrimitiveId id) const {
-    const Entry& entry = entry_at(primitives_.object_index(id));
+    const Entry& entry = entry_of(id);
     return entry.kind == Kind::plain ? &entry.color : nullptr;
   }
 
@@ -87,8 +85,8 @@ class Surfaces {
     Visibility visibility;
   };
 
-  [[nodiscard]] const Entry& entry_at(std::size_t index) const {
-    const Object& object = scene_.objects[index];
+  [[nodiscard]] const Entry& entry_of(PrimitiveId id) const {
+    const Object& object = *scene_.objects.run(primitives_.run_index(id)).first;
     const auto* mesh = std::get_if<Mesh>(&object.shape);
     const bool has_colors = mesh != nullptr && !mesh->colors.empty();
     return entries_[2 * object.material.value_or(none_) + (has_colors ? 1 : 0)];

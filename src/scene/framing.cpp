@@ -103,10 +103,12 @@ void Framing::add(const Scene& scene) {
       if (!holds(corner)) return false;
     return true;
   };
-  for (const Object& object : scene.objects) {
-    visit_extent(
-        object.shape, chunks, contains, [&](const DVec3& point) { add(point + shift); },
-        [&](const auto& support) { add_support(support, shift); });
+  for (const ObjectRun& run : scene.objects.runs()) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      visit_extent(
+          {run, i}, chunks, contains, [&](const DVec3& point) { add(point + shift); },
+          [&](const auto& support) { add_support(support, shift); });
+    }
   }
 }
 

@@ -12,11 +12,12 @@ constexpr std::size_t kFewPrimitives = 1024;
 
 }  // namespace
 
-Primitives::Primitives(const Scene& scene) : scene_(&scene) {
-  first_ids_.reserve(scene.objects.size() + 1);
-  for (const Object& object : scene.objects) {
+Primitives::Primitives(const Scene& scene)
+    : scene_(&scene), is_run_single_(scene.objects.runs().size() == scene.objects.size()) {
+  first_ids_.reserve(scene.objects.runs().size() + 1);
+  for (const ObjectRun& run : scene.objects.runs()) {
     first_ids_.push_back(count_);
-    const std::size_t more = primitive_count(object.shape);
+    const std::uint64_t more = std::uint64_t{primitive_count(run.first->shape)} * run.count;
     if (more > std::numeric_limits<PrimitiveId>::max() - count_)
       throw Error(ErrorKind::limit, "", "the scene has 2^32 primitives or more");
     count_ += static_cast<PrimitiveId>(more);
@@ -27,23 +28,23 @@ Primitives::Primitives(const Scene& scene) : scene_(&scene) {
 
 void Primitives::make_ranges() {
   if (count_ == 0) return;
-  const std::size_t objects = scene_->objects.size();
-  const std::size_t most = std::max(kFewPrimitives, objects);
+  const std::size_t runs = first_ids_.size() - 1;
+  const std::size_t most = std::max(kFewPrimitives, runs);
   while ((count_ - 1) >> range_shift_ >= most) ++range_shift_;
-  range_objects_.resize(((count_ - 1) >> range_shift_) + std::size_t{2});
-  std::uint32_t object = 0;
-  const auto object_of = [&](PrimitiveId id) {
-    while (object + 1 < objects && first_ids_[object + 1] <= id) ++object;
-    return object;
+  range_runs_.resize(((count_ - 1) >> range_shift_) + std::size_t{2});
+  std::uint32_t run = 0;
+  const auto run_of = [&](PrimitiveId id) {
+    while (run + 1 < runs && first_ids_[run + 1] <= id) ++run;
+    return run;
   };
-  for (std::size_t i = 0; i + 1 < range_objects_.size(); ++i)
-    range_objects_[i] = object_of(static_cast<PrimitiveId>(i << range_shift_));
-  range_objects_.back() = object_of(count_ - 1);
+  for (std::size_t i = 0; i + 1 < range_runs_.size(); ++i)
+    range_runs_[i] = run_of(static_cast<PrimitiveId>(i << range_shift_));
+  range_runs_.back() = run_of(count_ - 1);
 }
 
-std::size_t Primitives::find_object(std::uint32_t first, std::uint32_t last, PrimitiveId id) const {
-  // Takes the last object that starts at or before `id`, because an empty mesh has the same first
-  // id as the next object. Has no branches, because they would often be mispredicted.
+std::size_t Primitives::find_run(std::uint32_t first, std::uint32_t last, PrimitiveId id) const {
+  // Takes the last run that starts at or before `id`, because an empty mesh has the same first id
+  // as the next object. Has no branches, because they would often be mispredicted.
   const PrimitiveId* begin = first_ids_.data() + first;
   for (std::uint32_t size = last - first + 1; size > 1;) {
     const std::uint32_t half = size / 2;
@@ -51,6 +52,26 @@ std::size_t Primitives::find_object(std::uint32_t first, std::uint32_t last, Pri
     size -= half;
   }
   return static_cast<std::size_t>(begin - first_ids_.data());
+}
+
+PlacedObject Primitives::object_in(const ObjectRun& own, std::size_t run, PrimitiveId id) const {
+  const auto size = static_cast<PrimitiveId>(primitive_count(own.first->shape));
+  const PrimitiveId place = (id - first_ids_[run]) / size;
+  const PrimitiveId first = first_ids_[run] + place * size;
+  return {.index = own.begin + place,
+          .run = run,
+          .first = own.first,
+          .mesh = own.mesh(place),
+          .first_id = first,
+          .end_id = first + size};
+}
+
+PrimitiveId Primitives::first_id_of(std::size_t object) const {
+  const std::size_t run = scene_->objects.run_of(object);
+  const ObjectRun own = scene_->objects.run(run);
+  if (own.count == 1) return first_ids_[run];
+  return first_ids_[run] +
+         static_cast<PrimitiveId>((object - own.begin) * primitive_count(own.first->shape));
 }
 
 }  // namespace microtrace

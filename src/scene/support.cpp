@@ -27,7 +27,10 @@ std::optional<EllipsoidSupport> ellipsoid(const Quadric& q) {
   return EllipsoidSupport{.center = center, .inverse = inverse * square};
 }
 
-std::optional<Extent> extent_of(const Shape& shape, ChunkedMeshes& chunks) {
+PlacedShape::PlacedShape(const ObjectRun& run, std::size_t i)
+    : shape(run.first->shape), mesh(run.mesh(i)) {}
+
+std::optional<Extent> extent_of(const PlacedShape& shape, ChunkedMeshes& chunks) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Extent extent{.low = DVec3(kInfinity), .high = DVec3(-kInfinity)};
   visit_extent(
@@ -54,9 +57,10 @@ std::optional<Extent> extent_of(const Shape& shape, ChunkedMeshes& chunks) {
 
 bool has_bounded_object(const Scene& scene) {
   ChunkedMeshes chunks;
-  return std::ranges::any_of(scene.objects, [&](const Object& object) {
-    return extent_of(object.shape, chunks).has_value();
-  });
+  for (const ObjectRun& run : scene.objects.runs())
+    for (std::size_t i = 0; i < run.count; ++i)
+      if (extent_of({run, i}, chunks)) return true;
+  return false;
 }
 
 }  // namespace microtrace

@@ -15,6 +15,7 @@
 
 namespace microtrace {
 
+struct ObjectRun;
 struct Scene;
 
 [[nodiscard]] inline bool is_finite(const Vec3& p) {
@@ -57,12 +58,25 @@ struct EllipsoidSupport {
 /// The quadric as an ellipsoid; nothing if it is not an ellipsoid or is empty.
 [[nodiscard]] std::optional<EllipsoidSupport> ellipsoid(const Quadric& quadric);
 
+/// A shape and, if it is a mesh, its placement. Refers to both.
+struct PlacedShape {
+  const Shape& shape;
+  PlacedMesh mesh;  ///< without arrays if the shape is not a mesh
+
+  PlacedShape(const Shape& own)  // NOLINT(google-explicit-constructor)
+      : shape(own) {
+    if (const auto* arrays = std::get_if<Mesh>(&own)) mesh = *arrays;
+  }
+  /// The shape of the object with index run.begin + i.
+  PlacedShape(const ObjectRun& run, std::size_t i);
+};
+
 /// Calls point(DVec3) for points whose convex hull equals that of the shape, or support(f) with the
 /// shape's support function f. Calls neither if the shape is empty or unbounded. Ignores vertices
 /// that are not finite, and may ignore vertices of placed meshes in boxes for which
 /// skips(MeshChunks::Box) is true.
 template <class Skips, class Point, class Support>
-void visit_extent(const Shape& shape, ChunkedMeshes& chunks, Skips&& skips, Point&& point,
+void visit_extent(const PlacedShape& placed, ChunkedMeshes& chunks, Skips&& skips, Point&& point,
                   Support&& support) {
   const auto visit = [&](const auto& s) {
     using S = std::remove_cvref_t<decltype(s)>;
@@ -70,7 +84,7 @@ void visit_extent(const Shape& shape, ChunkedMeshes& chunks, Skips&& skips, Poin
       const auto add = [&](const Vec3& p) {
         if (is_finite(p)) point(DVec3(p));
       };
-      if (s.placement) return chunks.of(s).visit(s, skips, add);
+      if (placed.mesh.placement != nullptr) return chunks.of(s).visit(placed.mesh, skips, add);
       for (const Vec3& p : s.positions) add(p);
     } else if constexpr (std::is_same_v<S, Triangle>) {
       for (const Vec3& p : {s.a, s.b, s.c}) {
@@ -91,14 +105,14 @@ void visit_extent(const Shape& shape, ChunkedMeshes& chunks, Skips&& skips, Poin
       static_assert(std::is_same_v<S, Plane>, "has no bounds");
     }
   };
-  std::visit(visit, shape);
+  std::visit(visit, placed.shape);
 }
 
 /// The axis-aligned bounding box of a shape; nothing if it is empty or unbounded.
 struct Extent {
   DVec3 low, high;
 };
-[[nodiscard]] std::optional<Extent> extent_of(const Shape& shape, ChunkedMeshes& chunks);
+[[nodiscard]] std::optional<Extent> extent_of(const PlacedShape& shape, ChunkedMeshes& chunks);
 
 /// Returns true if any object has an extent.
 [[nodiscard]] bool has_bounded_object(const Scene& scene);

@@ -123,14 +123,13 @@ class Interaction {
     const DVec3 w = inside.exists ? inside.v : barycentrics_at(t, p);
     SurfaceInteraction result = at(p, direction_or(area_vector<1>(t), facing()));
     result.front = shows_front(s, ray_.d);
-    result.triangle = TrianglePoint{.barycentrics = w, .mesh = nullptr, .corners = {}};
-    const auto* mesh = std::get_if<Mesh>(&primitives_.scene().objects[result.object].shape);
-    if (mesh == nullptr) return result;
-    const auto vertices = mesh->corners(result.primitive);
-    result.triangle->mesh = mesh;
+    const PlacedMesh mesh = primitives_.object_of(hit_.id).mesh;
+    result.triangle = TrianglePoint{.barycentrics = w, .mesh = mesh, .corners = {}};
+    if (!mesh) return result;
+    const auto vertices = mesh.corners(result.primitive);
     result.triangle->corners = vertices;
-    if (!mesh->normals.empty()) {
-      const auto normal = [&](std::size_t i) { return DVec3(mesh->normal(vertices[i])); };
+    if (!mesh.arrays->normals.empty()) {
+      const auto normal = [&](std::size_t i) { return DVec3(mesh.normal(vertices[i])); };
       result.ns = direction_or(weighted(w, normal(0), normal(1), normal(2)), result.n);
     }
     return result;
@@ -211,14 +210,14 @@ std::optional<Result> interpolate(const TrianglePoint& at, const Array<Value>& v
 }  // namespace
 
 std::optional<DVec2> SurfaceInteraction::uv(std::size_t set) const {
-  if (!triangle || triangle->mesh == nullptr) return std::nullopt;
-  const auto& sets = triangle->mesh->uv_sets;
+  if (!triangle || !triangle->mesh) return std::nullopt;
+  const auto& sets = triangle->mesh.arrays->uv_sets;
   return set < sets.size() ? interpolate<DVec2>(*triangle, sets[set]) : std::nullopt;
 }
 
 DVec2 SurfaceInteraction::uv_step(std::size_t set, const DVec3& dp) const {
   if (!uv(set)) return DVec2(0);
-  const Mesh& mesh = *triangle->mesh;
+  const PlacedMesh& mesh = triangle->mesh;
   const auto& [i, j, k] = triangle->corners;
   // Solves dp = s (b - a) + t (c - a) for s and t.
   const DVec3 a(mesh.position(i));
@@ -228,14 +227,14 @@ DVec2 SurfaceInteraction::uv_step(std::size_t set, const DVec3& dp) const {
   if (!(square > 0)) return DVec2(0);
   const double s = glm::dot(cross, glm::cross(dp, ac)) / square;
   const double t = glm::dot(cross, glm::cross(ab, dp)) / square;
-  const auto& values = mesh.uv_sets[set];
+  const auto& values = mesh.arrays->uv_sets[set];
   const DVec2 at_a(values[i]);
   return s * (DVec2(values[j]) - at_a) + t * (DVec2(values[k]) - at_a);
 }
 
 DVec4 SurfaceInteraction::color() const {
-  if (!triangle || triangle->mesh == nullptr) return DVec4(1);
-  return interpolate<DVec4>(*triangle, triangle->mesh->colors).value_or(DVec4(1));
+  if (!triangle || !triangle->mesh) return DVec4(1);
+  return interpolate<DVec4>(*triangle, triangle->mesh.arrays->colors).value_or(DVec4(1));
 }
 
 bool shows_front(const Triangle& triangle, const Vec3& d) {

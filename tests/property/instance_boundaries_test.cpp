@@ -58,7 +58,8 @@ TEST(InstanceBoundaries, HaveThePointsOfSplitTriangles) {
     const auto box = build::instance_box(owned, mesh);
     ASSERT_TRUE(box);
     Tree scene;
-    scene.instances.push_back(build::make_instance(owned, mesh, 0, *box));
+    scene.views = {owned.view};
+    scene.instances.push_back(build::make_instance(owned.tree, *mesh.placement, *box));
     scene.root = child_ref::kFirstInstance;
 
     // A point of the longest edge. If the edge passes above the origin, the point can be left of

@@ -180,11 +180,13 @@ TEST_P(Instances, BoxesOfOnePointFindTheTrianglesOfVertices) {
                         .others = tree.others.data(),
                         .root = tree.root,
                         .instances = tree.instances.data(),
+                        .meshes = tree.views.data(),
                         .scene_block = kInstanceKernels.best().scene_block};
     for (int i = 0; i < 200; ++i) {
       const Instance& instance =
           tree.instances[random.bits() % static_cast<std::uint32_t>(tree.instances.size())];
-      const PrimitiveId id = instance.first_id + random.bits() % instance.mesh->triangles;
+      const PrimitiveId id =
+          instance.first_id + random.bits() % tree.views[instance.mesh].triangles;
       const auto triangle = bvh.primitives().triangle(id);
       if (!std::isfinite(triangle->a.x + triangle->a.y + triangle->a.z)) continue;
       for (const Kernels* kernels : kRayKernels.available()) {

@@ -225,7 +225,7 @@ TEST_P(LawsOfPlace, ExactTranslationHasNoEffect) {
       return glm::abs(p.x) <= 64 && glm::abs(p.y) <= 64 && glm::abs(p.z) <= 64 &&
              p == (p + 0x1p14F) - 0x1p14F;
     };
-    std::erase_if(c.scene.objects, [&](const Object& object) {
+    std::erase_if(c.scene.objects.edit(), [&](const Object& object) {
       const auto* mesh = std::get_if<Mesh>(&object.shape);
       return mesh != nullptr && !std::all_of(mesh->positions.begin(), mesh->positions.end(), fits);
     });

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <variant>
 
 namespace microtrace {
 namespace {
@@ -37,11 +36,13 @@ void take_out_few(build::References& references) {
 
 /// Reserves memory for the triangles of placed meshes that are not instances.
 MemoryAccount room_for_copies(const Primitives& primitives, const std::vector<bool>& is_instance) {
-  const std::vector<Object>& objects = primitives.scene().objects;
   std::uint64_t count = 0;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const auto* mesh = std::get_if<Mesh>(&objects[i].shape);
-    if (mesh != nullptr && mesh->placement && !is_instance[i]) count += mesh->triangles.size();
+  for (const ObjectRun& run : primitives.scene().objects.runs()) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const PlacedMesh mesh = run.mesh(i);
+      if (mesh.placement != nullptr && !is_instance[run.begin + i])
+        count += mesh.arrays->triangles.size();
+    }
   }
   return temporary_memory(count * kBytesOfPrimitive, kTreeMemory);
 }

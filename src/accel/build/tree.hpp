@@ -65,7 +65,8 @@ struct Tree {
   /// them that testing each is faster.
   std::vector<PrimitiveId> unbounded;
   std::vector<std::shared_ptr<const OwnedMeshTree>> meshes;  ///< the trees of instances
-  /// Refer to `meshes` and to placements in the scene.
+  std::vector<MeshTree> views;                               ///< of `meshes`
+  /// Refer to `views` and to placements in the scene.
   PageVector<Instance> instances;  ///< in the order of the leaves
   Duplicates duplicates;           ///< triangles equal to one in the tree
   ChildRef root = 0;               ///< a node without children if there are no leaves

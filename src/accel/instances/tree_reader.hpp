@@ -25,7 +25,8 @@ class TreeReader {
     if (next < child_ref::kFirstInstance || next > child_ref::kLastInstance) return false;
     if (kernels_ == nullptr) kernels_ = &kInstanceKernels.best();
     instance_ = &tree_.instances[next - child_ref::kFirstInstance];
-    next = instance_->mesh->root;
+    mesh_ = &tree_.views[instance_->mesh];
+    next = mesh_->root;
     return true;
   }
   /// If the reference is kInstanceEnd, leaves the instance and returns true.
@@ -38,19 +39,18 @@ class TreeReader {
   [[nodiscard]] const WideNode& node(ChildRef node) {
     if (instance_ == nullptr) return tree_.nodes[node];
     if (!node_) node_.emplace();
-    kernels_->scene_node(*instance_, instance_->mesh->nodes[node], *node_);
+    kernels_->scene_node(*instance_, mesh_->nodes[node], *node_);
     enlarge(*node_, instance_->reach);
     return *node_;
   }
   [[nodiscard]] const TriangleBlock& block(std::uint32_t block) {
     if (instance_ == nullptr) return tree_.blocks[block];
-    kernels_->scene_block(*instance_, instance_->mesh->blocks[block],
-                          block_ ? *block_ : block_.emplace());
+    kernels_->scene_block(*instance_, mesh_->blocks[block], block_ ? *block_ : block_.emplace());
     return *block_;
   }
   [[nodiscard]] PrimitiveId other(std::uint32_t other) const {
     if (instance_ == nullptr) return tree_.others[other];
-    return instance_->first_id + instance_->mesh->others[other];
+    return instance_->first_id + mesh_->others[other];
   }
 
  private:
@@ -69,6 +69,7 @@ class TreeReader {
   const Tree& tree_;
   const InstanceKernels* kernels_ = nullptr;  // found when an instance is entered
   const Instance* instance_ = nullptr;        // null in the scene's own tree
+  const MeshTree* mesh_ = nullptr;            // of the instance
   std::optional<WideNode> node_;  // made for the first node of an instance, as most trees have none
   std::optional<TriangleBlock> block_;
 };

@@ -220,9 +220,9 @@ inline void meet_leaf(const TreeView& tree, const Scope& scope, const KernelRay&
 
 /// Considers every triangle of an instance, for rays that exceed the limits of enter().
 template <class Slowly>
-inline void consider_instance(const Instance& instance, const KernelRay& ray, ClosestSoFar& best,
-                              const Slowly& fallback) {
-  for (std::uint32_t i = 0; i < instance.mesh->triangles; ++i) {
+inline void consider_instance(const TreeView& tree, const Instance& instance, const KernelRay& ray,
+                              ClosestSoFar& best, const Slowly& fallback) {
+  for (std::uint32_t i = 0; i < tree.meshes[instance.mesh].triangles; ++i) {
     const std::uint32_t id = instance.first_id + i;
     if (id != ray.omitted_id) fallback(id, best);
   }

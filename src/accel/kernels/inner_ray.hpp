@@ -94,11 +94,8 @@ struct Scope {
   Scope() = default;
   explicit Scope(const TreeView& tree)
       : nodes(tree.nodes), blocks(tree.blocks), others(tree.others), instance(nullptr) {}
-  explicit Scope(const Instance& entered)
-      : nodes(entered.mesh->nodes),
-        blocks(entered.mesh->blocks),
-        others(entered.mesh->others),
-        instance(&entered) {}
+  Scope(const MeshTree& mesh, const Instance& entered)
+      : nodes(mesh.nodes), blocks(mesh.blocks), others(mesh.others), instance(&entered) {}
 
   /// Returns what belongs to the scope: `inner` in an instance, otherwise `outer`.
   template <class T>

@@ -24,6 +24,7 @@ struct TreeView {
   const std::uint32_t* others;
   ChildRef root;
   const Instance* instances = nullptr;  ///< null if there are none
+  const MeshTree* meshes = nullptr;     ///< of the instances
   /// Transforms a block of an instance's mesh to the scene, as Placement::point does.
   void (*scene_block)(const Instance& instance, const TriangleBlock& from,
                       TriangleBlock& to) = nullptr;

@@ -32,12 +32,13 @@ inline void walk(const TreeView& tree, KernelRay& ray, const Slowly& fallback, C
     } else if (is_instance(next)) {
       const Instance& instance = tree.instances[next - child_ref::kFirstInstance];
       if (enter(instance, ray, inner)) {
-        scope = Scope(instance);
+        const MeshTree& mesh = tree.meshes[instance.mesh];
+        scope = Scope(mesh, instance);
         stack.push_instance_end();
-        next = instance.mesh->root;
+        next = mesh.root;
         continue;
       }
-      consider_instance(instance, ray, best, fallback);
+      consider_instance(tree, instance, ray, best, fallback);
     } else {
       meet_leaf<N, kAny>(tree, scope, ray, inner, next, best, fallback);
     }

@@ -100,12 +100,13 @@ class StreamWalk {
     } else {
       const Instance& instance = instance_at(next);
       if (enter(instance, flight.ray, flight.inner)) {
-        flight.scope = Scope(instance);
+        const MeshTree& mesh = tree_.meshes[instance.mesh];
+        flight.scope = Scope(mesh, instance);
         flight.stack.push_instance_end();
-        next = instance.mesh->root;
+        next = mesh.root;
         return;
       }
-      consider_instance(instance, flight.ray, flight.best, fallback(flight));
+      consider_instance(tree_, instance, flight.ray, flight.best, fallback(flight));
     }
     next = next_after_leaf(flight);
   }
@@ -241,7 +242,9 @@ class StreamWalk {
     std::uintptr_t begin = place.begin;
     if constexpr (kInstances) {
       if (is_instance(child)) {
-        __builtin_prefetch(&instance_at(child));
+        const auto* const bytes = reinterpret_cast<const char*>(&instance_at(child));
+        __builtin_prefetch(bytes);
+        __builtin_prefetch(bytes + sizeof(Instance) - 1);
         return;
       }
       const std::uintptr_t begins[2] = {reinterpret_cast<std::uintptr_t>(scope.nodes),

@@ -19,12 +19,13 @@ void print_info(const std::string& text) {
 /// Returns the numbers of primitives of each kind.
 std::string primitives_text(const Scene& scene) {
   std::size_t triangles = 0, segments = 0, others = 0;
-  for (const Object& object : scene.objects) {
-    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
-      triangles += mesh->triangles.size();
-      segments += mesh->segments.size();
+  for (const ObjectRun& run : scene.objects.runs()) {
+    const std::size_t count = run.count * primitive_count(run.first->shape);
+    if (const PlacedMesh mesh = run.mesh(0)) {
+      triangles += count;
+      segments += mesh.arrays->segments.size();
     } else {
-      others += primitive_count(object.shape);
+      others += count;
     }
   }
   std::string text = counted(triangles, "triangle") + " in meshes";

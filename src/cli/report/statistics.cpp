@@ -71,11 +71,10 @@ void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
                        const MemoryBudget& memory) const {
   if (kind == Statistics::none) return;
   std::size_t primitives = 0;
-  for (const Object& object : scene.objects) {
-    primitives += primitive_count(object.shape);
+  for (const ObjectRun& run : scene.objects.runs()) {
+    primitives += run.count * primitive_count(run.first->shape);
     // A segment is rendered as two triangles.
-    if (const auto* mesh = std::get_if<Mesh>(&object.shape))
-      primitives += 2 * mesh->segments.size();
+    if (const PlacedMesh mesh = run.mesh(0)) primitives += 2 * mesh.arrays->segments.size();
   }
   const auto rays = static_cast<double>(counts.samples);
   const char* format =

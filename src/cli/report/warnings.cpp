@@ -41,8 +41,9 @@ bool is_dark(const Environment& environment) {
 }
 
 bool has_emissive_surfaces(const Scene& scene) {
-  return std::ranges::any_of(
-      scene.objects, [&](const Object& object) { return is_emissive(material_of(scene, object)); });
+  for (const ObjectRun& run : scene.objects.runs())
+    if (is_emissive(material_of(scene, *run.first))) return true;
+  return false;
 }
 
 /// Returns the exposure in stops that raises this value to at least 1/2.

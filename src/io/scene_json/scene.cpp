@@ -127,6 +127,7 @@ class Palette {
 void add_mesh(const JsonReader& json, const std::string& name,
               std::optional<std::uint32_t> material, MeshFiles& files, LoadedScene& out) {
   LoadedScene mesh = files.read(json);
+  (void)mesh.scene.objects.edit();  // because each object gets a name of its own
   const std::size_t first = out.scene.objects.size();
   merge(out.scene, std::move(mesh.scene));
   for (std::size_t i = first; i < out.scene.objects.size(); ++i) {

@@ -30,9 +30,9 @@ bool is_lamp(const Material& material) {
 
 /// Returns a part that contains the projection of the shape. The camera must be a pinhole with a
 /// perspective projection, which maps the corners of a box to points around its picture.
-Part part_of(const Shape& shape, const RayGenerator& camera, ChunkedMeshes& chunks) {
+Part part_of(const PlacedShape& shape, const RayGenerator& camera, ChunkedMeshes& chunks) {
   const std::optional<Extent> box =
-      std::holds_alternative<Plane>(shape) ? std::nullopt : extent_of(shape, chunks);
+      std::holds_alternative<Plane>(shape.shape) ? std::nullopt : extent_of(shape, chunks);
   if (!box) return kEverywhere;
   Part part;
   int in_front = 0;

@@ -37,7 +37,7 @@ Sights::Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs
   bool is_changed = false;
   for (std::uint64_t left = seen_; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    const Visibility visibility = world.surfaces.visibility(surfaces_.object[i]);
+    const Visibility visibility = world.surfaces.visibility(hits[i]->id);
     if (visibility == Visibility::always ||
         (visibility == Visibility::in_front && aovs.needs_surfaces() && surfaces_.side[i] > 0))
       continue;
@@ -111,7 +111,7 @@ void Sights::values_of(Aov aov, Values<float>& values) const {
 }
 
 void Sights::ids(std::size_t channel, std::array<std::uint32_t, kSize>& values) const {
-  const std::vector<Object>& objects = world_.scene.objects;
+  const Objects& objects = world_.scene.objects;
   const auto set = [&](const auto& id) {
     for (std::size_t i = 0; i < rays_.size(); ++i) values[i] = is_seen(i) ? id(i) : 0;
   };
@@ -121,7 +121,7 @@ void Sights::ids(std::size_t channel, std::array<std::uint32_t, kSize>& values) 
     set([&](std::size_t i) { return surfaces_.primitive[i] + 1; });
   } else {
     set([&](std::size_t i) {
-      const std::optional<std::uint32_t> material = objects[surfaces_.object[i]].material;
+      const std::optional<std::uint32_t> material = objects.first_of(surfaces_.object[i]).material;
       return material ? *material + 1 : 0;
     });
   }

@@ -19,9 +19,11 @@ double irradiance(const FoundLight& light) {
 
 GroundLight::GroundLight(const Scene& scene, const EnvironmentLight* environment) : scene_(scene) {
   ChunkedMeshes chunks;
-  for (const Object& object : scene.objects) {
-    const std::optional<Extent> extent = extent_of(object.shape, chunks);
-    if (extent && (!lowest_ || extent->low.y < *lowest_)) lowest_ = extent->low.y;
+  for (const ObjectRun& run : scene.objects.runs()) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const std::optional<Extent> extent = extent_of({run, i}, chunks);
+      if (extent && (!lowest_ || extent->low.y < *lowest_)) lowest_ = extent->low.y;
+    }
   }
   if (environment != nullptr) sky_.emplace(*environment);
 }

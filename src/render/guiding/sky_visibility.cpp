@@ -62,12 +62,14 @@ SkyVisibility::SkyVisibility(const Scene& scene, const Bvh& bvh, const Shading& 
     : bvh_(bvh), shading_(shading) {
   std::optional<Extent> bounds;
   ChunkedMeshes chunks;
-  for (const Object& object : scene.objects) {
-    const std::optional<Extent> extent = extent_of(object.shape, chunks);
-    if (!extent) continue;
-    if (!bounds) bounds = extent;
-    bounds = Extent{.low = glm::min(bounds->low, extent->low),
-                    .high = glm::max(bounds->high, extent->high)};
+  for (const ObjectRun& run : scene.objects.runs()) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const std::optional<Extent> extent = extent_of({run, i}, chunks);
+      if (!extent) continue;
+      if (!bounds) bounds = extent;
+      bounds = Extent{.low = glm::min(bounds->low, extent->low),
+                      .high = glm::max(bounds->high, extent->high)};
+    }
   }
   if (!bounds) return;
   const DVec3 margin = kMargin * (bounds->high - bounds->low);

@@ -13,14 +13,14 @@ void put_texel(NormalMapLanes& lanes, int lane, const Vec3& texel, float scale) 
 
 }  // namespace
 
-void put_tangents(VertexGroup& group, int lane, const Mesh* mesh,
+void put_tangents(VertexGroup& group, int lane, const PlacedMesh& mesh,
                   const std::array<std::uint32_t, 3>& corners) {
   group.mapped |= Lanes{1} << lane;
   group.handedness[lane] = 0;
-  if (mesh == nullptr || mesh->tangents.empty()) return;
+  if (!mesh || mesh.arrays->tangents.empty()) return;
   for (std::size_t corner = 0; corner < 3; ++corner)
-    put(group.tangents[corner], lane, Vec3(mesh->tangent(corners[corner])));
-  group.handedness[lane] = mesh->tangent(corners[0]).w;
+    put(group.tangents[corner], lane, Vec3(mesh.tangent(corners[corner])));
+  group.handedness[lane] = mesh.tangent(corners[0]).w;
 }
 
 void put_point(VertexGroup& group, int lane, const ShadingPoint& point) {
@@ -31,10 +31,10 @@ void put_point(VertexGroup& group, int lane, const ShadingPoint& point) {
   put(hits.ns, lane, at.ns);
   group.side[lane] = at.front ? 1.0F : -1.0F;
   group.width[lane] = point.width;
-  const bool on_mesh = at.mesh != nullptr && !at.is_edge_on;
+  const bool on_mesh = at.mesh && !at.is_edge_on;
   group.on_mesh[lane] = on_mesh ? 1 : 0;
   for (std::size_t corner = 0; corner < 3 && on_mesh; ++corner)
-    put(hits.corners[corner], lane, at.mesh->position(at.corners[corner]));
+    put(hits.corners[corner], lane, at.mesh.position(at.corners[corner]));
 
   const TexturedMaterial& look = *point.look;
   const TextureSlot& base = look[MaterialTexture::normal];

@@ -42,7 +42,7 @@ struct alignas(64) VertexGroup {
 };
 
 /// Adds a lane to group.mapped, and sets the tangents of its triangle, but not their weights.
-void put_tangents(VertexGroup& group, int lane, const Mesh* mesh,
+void put_tangents(VertexGroup& group, int lane, const PlacedMesh& mesh,
                   const std::array<std::uint32_t, 3>& corners);
 
 /// Sets the members of a lane that depend on its point: position, normals and normal maps.

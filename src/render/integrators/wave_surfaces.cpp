@@ -134,7 +134,7 @@ Lanes Wave::add_simple(std::size_t first) {
       group.media[lane] = 0;
       group.channel[lane] = paths.channel[first + k];
     }
-    const bool has_colors = !group.hits.meshes[k]->colors.empty();
+    const bool has_colors = !group.hits.meshes[k].arrays->colors.empty();
     if (look.varies || has_colors) varying |= bit;
     // Vertex colors replace the base color, which textures replace each time.
     const TexturedMaterial* const known =
@@ -159,7 +159,7 @@ Lanes Wave::add_varying(Lanes lanes) {
   for (Lanes rest = lanes; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto k = static_cast<std::size_t>(lane);
-    if (hits.meshes[k]->colors.empty()) continue;
+    if (hits.meshes[k].arrays->colors.empty()) continue;
     const Vec4 color = vertex_color(hits.meshes[k], hits.corners[k], got(hits.lanes.weights, lane));
     for (int channel = 0; channel < 4; ++channel) textured_.color[channel][lane] = color[channel];
   }

@@ -45,17 +45,18 @@ Emitters::Emitters(const Scene& scene, const Shading& shading) : scene_(scene), 
 
 void Emitters::add_surfaces(std::vector<LightBounds>& bounds) {
   PrimitiveId id = 0;
-  for (const Object& object : scene_.objects) {
-    const auto count = static_cast<PrimitiveId>(primitive_count(object.shape));
-    if (is_emissive(material_of(scene_, object))) {
+  for (const ObjectRun& run : scene_.objects.runs()) {
+    const auto count = static_cast<PrimitiveId>(primitive_count(run.first->shape));
+    const bool emits = is_emissive(material_of(scene_, *run.first));
+    for (std::size_t k = 0; k < run.count; ++k, id += count) {
+      if (!emits) continue;
       take_memory_for_emitters(count);
-      if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
-        for (PrimitiveId i = 0; i < count; ++i) add_triangle(id + i, triangle_of(*mesh, i), bounds);
+      if (const PlacedMesh mesh = run.mesh(k)) {
+        for (PrimitiveId i = 0; i < count; ++i) add_triangle(id + i, triangle_of(mesh, i), bounds);
       } else {
-        add_shape(id, object.shape, bounds);
+        add_shape(id, run.first->shape, bounds);
       }
     }
-    id += count;
   }
   surfaces_ = emitters_.size();
 }

@@ -50,20 +50,22 @@ std::optional<PointBounds> bounds_of_points(const Scene& scene) {
   PointBounds bounds;
   const auto add = [&](const Vec3& p) { bounds.add(DVec3(p)); };
   std::unordered_map<ArrayKey, PointBounds, ArrayKey::Hash> boxes;  // by positions of shared meshes
-  for (const Object& object : scene.objects) {
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh == nullptr || !mesh->placement) {
-      const bool is_defined =
-          std::visit([&](const auto& shape) { return for_each_point(shape, add); }, object.shape);
+  for (const ObjectRun& run : scene.objects.runs()) {
+    const PlacedMesh first = run.mesh(0);
+    if (first.placement == nullptr) {
+      const bool is_defined = std::visit(
+          [&](const auto& shape) { return for_each_point(shape, add); }, run.first->shape);
       if (!is_defined) return std::nullopt;
       continue;
     }
     // There may be millions of instances, so the box of an instance is that of its mesh's corners.
-    const auto [box, is_new] = boxes.try_emplace(ArrayKey(mesh->positions));
+    const Array<Vec3>& positions = first.arrays->positions;
+    const auto [box, is_new] = boxes.try_emplace(ArrayKey(positions));
     if (is_new)
-      for (const Vec3& p : mesh->positions) box->second.add(DVec3(p));
-    if (mesh->positions.empty()) continue;
-    for (const DVec3& corner : corners_of(box->second)) bounds.add(mesh->placement->point(corner));
+      for (const Vec3& p : positions) box->second.add(DVec3(p));
+    if (positions.empty()) continue;
+    for (const DVec3& corner : corners_of(box->second))
+      for (std::size_t i = 0; i < run.count; ++i) bounds.add(run.mesh(i).placement->point(corner));
   }
   return bounds;
 }

@@ -40,8 +40,9 @@ void FlatTriangles::add_surface(const TexturedMaterial& look) {
              .f90 = p.dielectric.f90};
 }
 
-void FlatTriangles::add_mesh(const Mesh& mesh, PrimitiveId first, std::uint32_t surface,
+void FlatTriangles::add_mesh(const PlacedMesh& placed, PrimitiveId first, std::uint32_t surface,
                              const TexturedMaterial& look) {
+  const Mesh& mesh = *placed.arrays;
   const std::size_t end = std::size_t{first} + mesh.triangles.size();
   const bool can_be_flat =
       !has_attributes(mesh) && !look.varies && (is_simple(look) || look.is_emissive());
@@ -55,7 +56,7 @@ void FlatTriangles::add_mesh(const Mesh& mesh, PrimitiveId first, std::uint32_t 
   rows_.resize(end);
   HitArrays<1> lane{};
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    put_positions(lane, 0, mesh, mesh.corners(i));
+    put_positions(lane, 0, placed, placed.corners(i));
     find_points<1>(lane);
     FlatTriangle& row =
         triangles_.emplace_back(FlatTriangle{.n = {lane.n[0][0], lane.n[1][0], lane.n[2][0]},

@@ -22,7 +22,7 @@ class FlatTriangles {
   void add_surface(const TexturedMaterial& look);
   /// Adds the triangles of a mesh if they are flat. `first` is the number of the first primitive,
   /// and `surface` the number of its material.
-  void add_mesh(const Mesh& mesh, PrimitiveId first, std::uint32_t surface,
+  void add_mesh(const PlacedMesh& placed, PrimitiveId first, std::uint32_t surface,
                 const TexturedMaterial& look);
 
   /// Sets hits.rows to the rows of the primitives in these lanes. Returns the lanes with flat

@@ -15,7 +15,7 @@ struct HitGroup {
   FlatHits flat_hits{};
   Lanes flat = 0;  ///< lanes with flat triangles, for which the arrays below are not set
   std::array<const TexturedMaterial*, kShadingLanes> looks{};
-  std::array<const Mesh*, kShadingLanes> meshes{};  ///< null for other primitives
+  std::array<PlacedMesh, kShadingLanes> meshes{};  ///< without arrays for other primitives
   std::array<std::array<std::uint32_t, 3>, kShadingLanes> corners{};
   Lanes hit = 0;   ///< lanes with a hit
   Lanes sure = 0;  ///< lanes whose points find_points() has computed

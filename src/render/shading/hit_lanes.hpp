@@ -22,10 +22,10 @@ inline void prefetch_corners(const Mesh& mesh, const std::array<std::uint32_t, 3
 }
 
 template <int width>
-void put_attributes(HitArrays<width>& lanes, int lane, const Mesh& mesh,
+void put_attributes(HitArrays<width>& lanes, int lane, const PlacedMesh& mesh,
                     const std::array<std::uint32_t, 3>& corners) {
-  const bool has_normals = !mesh.normals.empty();
-  const Vec2* uvs = has_uv(mesh) ? mesh.uv_sets[0].data() : nullptr;
+  const bool has_normals = !mesh.arrays->normals.empty();
+  const Vec2* uvs = has_uv(*mesh.arrays) ? mesh.arrays->uv_sets[0].data() : nullptr;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t corner = corners[i];
     put(lanes.normals[i], lane, has_normals ? mesh.normal(corner) : Vec3(0));
@@ -36,7 +36,7 @@ void put_attributes(HitArrays<width>& lanes, int lane, const Mesh& mesh,
 }
 
 template <int width>
-void put_positions(HitArrays<width>& lanes, int lane, const Mesh& mesh,
+void put_positions(HitArrays<width>& lanes, int lane, const PlacedMesh& mesh,
                    const std::array<std::uint32_t, 3>& corners) {
   for (std::size_t i = 0; i < 3; ++i) put(lanes.corners[i], lane, mesh.position(corners[i]));
 }
@@ -46,7 +46,7 @@ template <int width>
 void get_attributes(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
   at.n = got(lanes.n, lane);
   at.ns = got(lanes.ns, lane);
-  const bool is_textured = has_uv(*at.mesh);
+  const bool is_textured = has_uv(*at.mesh.arrays);
   at.first_uv = is_textured ? Vec2(lanes.first_uv[0][lane], lanes.first_uv[1][lane]) : Vec2(0);
   at.uv_scale = is_textured ? lanes.uv_scale[lane] : 0;
 }

@@ -15,7 +15,8 @@
 namespace microtrace {
 
 void Shading::find_masked() {
-  for (Entry& entry : entries_) {
+  for (std::size_t run = 0; run < entries_.size(); ++run) {
+    Entry& entry = entries_[run];
     const Material& material = *looks_[entry.look].material;
     // Bodies that enclose a medium may hide each other's surfaces, so each hit matters.
     if (entry.mesh == nullptr || material.alpha_mode == AlphaMode::opaque ||
@@ -25,17 +26,15 @@ void Shading::find_masked() {
       take_memory(primitives_.count() / 8, "the transparent surfaces of the scene");
       masked_.resize(bit_set_size(primitives_.count()));
     }
-    const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
-    entry.first_map = opacity_.add(*entry.mesh, looks_[entry.look]);
-    if (blends(looks_[entry.look])) {
-      has_blended_ = true;
-      insert(masked_.data(), entry.first_id, end);
-      continue;
-    }
-    for (PrimitiveId id = entry.first_id; id < end; ++id) {
-      if (opacity_.everywhere(entry.first_map + (id - entry.first_id)) != Opacity::visible)
-        insert(masked_.data(), id);
-    }
+    const bool blended = blends(looks_[entry.look]);
+    has_blended_ |= blended;
+    for_each_mesh(run, [&](const PlacedMesh& mesh, PrimitiveId first_id) {
+      std::size_t& first_map = entry.first_map_of(mesh);
+      if (first_map == kNoMap) first_map = opacity_.add(mesh, looks_[entry.look]);
+      for (std::size_t i = 0; i < mesh.arrays->triangles.size(); ++i)
+        if (blended || opacity_.everywhere(first_map + i) != Opacity::visible)
+          insert(masked_.data(), first_id + static_cast<PrimitiveId>(i));
+    });
   }
   opacity_.finish();
   if (std::ranges::count(masked_, 0U) == std::ssize(masked_)) masked_.clear();
@@ -44,29 +43,29 @@ void Shading::find_masked() {
 /// A ray's point in the plane of a masked triangle.
 struct Shading::MaskedHit {
   const Entry& entry;
-  std::size_t triangle;
+  MeshTriangle triangle;
   std::array<std::uint32_t, 3> corners;
   PlanePoints<1> plane;
 
   MaskedHit(const Entry& of, const Ray& ray, PrimitiveId id)
       : entry(of),
-        triangle(id - entry.first_id),
-        corners(entry.mesh->corners(triangle)),
+        triangle(of.triangle(id)),
+        corners(triangle.mesh.corners(triangle.index)),
         plane({DVec3(ray.o), DVec3(ray.d)}, {position(0), position(1), position(2)}) {}
 
   [[nodiscard]] Vec3 barycentrics() const { return Vec3(plane.weights(1 / plane.square)); }
 
  private:
   [[nodiscard]] DVec3 position(std::size_t corner) const {
-    return DVec3(entry.mesh->position(corners[corner]));
+    return DVec3(triangle.mesh.position(corners[corner]));
   }
 };
 
 Visible Shading::known_visible(PrimitiveId id, const HitWeights& at) const {
   static_assert(HitWeights::kError < OpacityMaps::kTolerance);
   if (!at.are_sure) return Visible::unsure;
-  const Entry& entry = entries_[primitives_.object_index(id)];
-  switch (opacity_.at(entry.first_map + (id - entry.first_id), at.second, at.third)) {
+  const Entry& entry = entry_of(id);
+  switch (opacity_.at(entry.map(entry.triangle(id)), at.second, at.third)) {
     case Opacity::transparent:
       return Visible::no;
     case Opacity::visible:
@@ -77,11 +76,11 @@ Visible Shading::known_visible(PrimitiveId id, const HitWeights& at) const {
 }
 
 float Shading::masked_coverage(const Ray& ray, PrimitiveId id) const {
-  const Entry& entry = entries_[primitives_.object_index(id)];
+  const Entry& entry = entry_of(id);
   const MaskedHit hit(entry, ray, id);
   if (!hit.plane.are_sure()) return alpha_coverage(point(ray, {.id = id, .t = 0}).unfiltered());
   ShadingPoint point{.at = {}, .look = &looks_[entry.look]};
-  point.at.mesh = entry.mesh;
+  point.at.mesh = hit.triangle.mesh;
   point.at.corners = hit.corners;
   point.at.barycentrics = hit.barycentrics();
   point.at.find_first_uv();
@@ -94,20 +93,18 @@ float Shading::alpha_coverage(const ShadingPoint& point) {
 
 bool Shading::is_transparent_to_camera(const Ray& ray, PrimitiveId id,
                                        const Footprint& footprint) const {
-  const Entry& entry = entries_[primitives_.object_index(id)];
-  const TexturedMaterial& look = looks_[entry.look];
-  if (look.has_back &&
-      opacity_.everywhere(entry.first_map + (id - entry.first_id)) == Opacity::visible)
+  const MaskedHit hit(entry_of(id), ray, id);
+  const TexturedMaterial& look = looks_[hit.entry.look];
+  if (look.has_back && opacity_.everywhere(hit.entry.map(hit.triangle)) == Opacity::visible)
     return false;
-  const MaskedHit hit(entry, ray, id);
   if (!hit.plane.are_sure()) return false;
   if (hit.plane.slope > 0 && !look.has_back) return true;
   const Vec3 weights = hit.barycentrics();
-  const Opacity known = opacity_.at(hit.entry.first_map + hit.triangle, weights.y, weights.z);
+  const Opacity known = opacity_.at(hit.entry.map(hit.triangle), weights.y, weights.z);
   const double distance = hit.plane.t * std::sqrt(glm::dot(hit.plane.d, hit.plane.d));
   const double width = footprint.begin + footprint.spread * distance;
   if (known != Opacity::unknown &&
-      look[MaterialTexture::base_color].is_magnified(*hit.entry.mesh, hit.corners,
+      look[MaterialTexture::base_color].is_magnified(*hit.triangle.mesh.arrays, hit.corners,
                                                      width * width / std::sqrt(hit.plane.square)))
     return known == Opacity::transparent;
   ShadingPoint point = this->point(ray, {.id = id, .t = 0});

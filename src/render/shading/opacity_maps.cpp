@@ -50,7 +50,7 @@ struct OpacityMaps::TriangleAlpha {
   ValueInterval factor{1, 1};  ///< of the product of factors and vertex colors
   bool is_valid = true;        ///< false if the numbers are too large or negative
 
-  TriangleAlpha(const Mesh& mesh, std::size_t triangle, const TexturedMaterial& of,
+  TriangleAlpha(const PlacedMesh& placed, std::size_t triangle, const TexturedMaterial& of,
                 const AlphaBounds* bounds);
 
   /// The opacity where the weights of the second and the third vertex are in the cell at (x, y) of
@@ -64,10 +64,11 @@ struct OpacityMaps::TriangleAlpha {
   void set_factor();
 };
 
-OpacityMaps::TriangleAlpha::TriangleAlpha(const Mesh& mesh, std::size_t triangle,
+OpacityMaps::TriangleAlpha::TriangleAlpha(const PlacedMesh& placed, std::size_t triangle,
                                           const TexturedMaterial& of, const AlphaBounds* bounds)
     : look(&of), texture(bounds) {
-  const std::array<std::uint32_t, 3> corners = mesh.corners(triangle);
+  const Mesh& mesh = *placed.arrays;
+  const std::array<std::uint32_t, 3> corners = placed.corners(triangle);
   for (std::size_t i = 0; i < 3; ++i)
     vertex_alpha[i] = mesh.colors.empty() ? 1 : mesh.colors[corners[i]].w;
   set_factor();
@@ -151,18 +152,15 @@ std::size_t OpacityMaps::HashOfKey::operator()(const TriangleKey& key) const {
   return hash;
 }
 
-std::size_t OpacityMaps::add(const Mesh& mesh, const TexturedMaterial& look) {
+std::size_t OpacityMaps::add(const PlacedMesh& placed, const TexturedMaterial& look) {
+  const Mesh& mesh = *placed.arrays;
   const TextureSlot& slot = look[MaterialTexture::base_color];
   const void* uv = slot.map != nullptr && slot.use->uv_set < mesh.uv_sets.size()
                        ? mesh.uv_sets[slot.use->uv_set].data()
                        : nullptr;
-  const bool is_mirrored = mesh.placement && mesh.placement->is_mirrored();
-  const MeshKey key{mesh.triangles.data(),
-                    mesh.triangles.data() + mesh.triangles.size(),
-                    uv,
-                    mesh.colors.data(),
-                    look.material,
-                    is_mirrored ? this : nullptr};
+  const MeshKey key{
+      mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size(), uv, mesh.colors.data(),
+      look.material,         placed.is_mirrored() ? this : nullptr};
   const auto [known, is_new] = meshes_.try_emplace(key, maps_.size());
   if (!is_new) return known->second;
   take_memory(mesh.triangles.size() * sizeof(Map), "the opacity of triangles");
@@ -172,7 +170,7 @@ std::size_t OpacityMaps::add(const Mesh& mesh, const TexturedMaterial& look) {
           ? nullptr
           : &bounds_.try_emplace(&slot.map->image(), slot.map->image()).first->second;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    maps_.push_back(map_of(TriangleAlpha(mesh, i, look, bounds)));
+    maps_.push_back(map_of(TriangleAlpha(placed, i, look, bounds)));
   return known->second;
 }
 

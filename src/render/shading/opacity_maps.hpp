@@ -30,7 +30,7 @@ class OpacityMaps {
 
   /// Adds the maps of all triangles of a mesh with a material, unless they are known. Returns the
   /// number of the first triangle's map.
-  std::size_t add(const Mesh& mesh, const TexturedMaterial& look);
+  std::size_t add(const PlacedMesh& placed, const TexturedMaterial& look);
   /// Releases what only add() needs.
   void finish();
 

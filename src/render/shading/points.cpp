@@ -16,26 +16,27 @@ void Shading::find_points(const ShadingKernels& kernels,
   std::array<std::size_t, kShadingLanes> triangles;
   for (Lanes rest = group.hit & ~group.flat; rest != 0; rest &= rest - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-    const Entry& entry = entries_[primitives_.object_index(ids[i])];
+    const Entry& entry = entry_of(ids[i]);
     group.looks[i] = &looks_[entry.look];
-    group.meshes[i] = entry.mesh;
-    if (entry.mesh == nullptr) continue;
+    const MeshTriangle triangle = entry.triangle(ids[i]);
+    group.meshes[i] = triangle.mesh;
+    if (!triangle.mesh) continue;
     on_meshes |= Lanes{1} << i;
-    triangles[i] = ids[i] - entry.first_id;
-    __builtin_prefetch(&entry.mesh->triangles[triangles[i]]);
+    triangles[i] = triangle.index;
+    __builtin_prefetch(&triangle.mesh.arrays->triangles[triangles[i]]);
   }
   for (Lanes rest = on_meshes; rest != 0; rest &= rest - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-    group.corners[i] = group.meshes[i]->corners(triangles[i]);
-    prefetch_corners(*group.meshes[i], group.corners[i]);
+    group.corners[i] = group.meshes[i].corners(triangles[i]);
+    prefetch_corners(*group.meshes[i].arrays, group.corners[i]);
   }
   for (Lanes rest = on_meshes; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto i = static_cast<std::size_t>(lane);
     const Lanes bit = Lanes{1} << lane;
-    const Mesh& mesh = *group.meshes[i];
+    const PlacedMesh& mesh = group.meshes[i];
     put_positions(group.lanes, lane, mesh, group.corners[i]);
-    const bool has_attributes = !mesh.normals.empty() || has_uv(mesh);
+    const bool has_attributes = !mesh.arrays->normals.empty() || has_uv(*mesh.arrays);
     if (!has_attributes && (group.with_attributes & bit) == 0) continue;
     put_attributes(group.lanes, lane, mesh, group.corners[i]);
     group.with_attributes =
@@ -62,14 +63,15 @@ void Shading::load_surfaces(const ShadingKernels& kernels, const HitGroup& group
 ShadingPoint Shading::point(const HitGroup& group, int lane, const Ray& ray, const Hit& hit) const {
   const auto i = static_cast<std::size_t>(lane);
   const bool is_flat = (group.flat >> lane & 1U) != 0;
-  const Entry& entry = entries_[primitives_.object_index(hit.id)];
+  const Entry& entry = entry_of(hit.id);
   ShadingPoint point{.at = {}, .look = &looks_[entry.look]};
   if ((group.sure >> lane & 1U) == 0) {
     point.at = rounded(interact(primitives_, ray, hit), ray, hit);
     return point;
   }
-  point.at.mesh = entry.mesh;
-  point.at.corners = is_flat ? entry.mesh->corners(hit.id - entry.first_id) : group.corners[i];
+  const MeshTriangle triangle = entry.triangle(hit.id);
+  point.at.mesh = triangle.mesh;
+  point.at.corners = is_flat ? triangle.mesh.corners(triangle.index) : group.corners[i];
   get_sure_point(group.lanes, lane, point.at);
   return point;
 }

@@ -116,9 +116,9 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
   };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
-  PrimitiveId first = 0;
   std::vector<std::optional<std::uint32_t>> closed(looks_.size());  // looks of closed shapes
-  for (const Object& object : scene.objects) {
+  for (const ObjectRun& run : scene.objects.runs()) {
+    const Object& object = *run.first;
     const auto none = static_cast<std::uint32_t>(scene.materials.size());
     std::uint32_t look = object.material.value_or(none);
     if ((looks_[look].has_open_back || looks_[look].has_open_opaque_parts) &&
@@ -134,16 +134,19 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     }
     const Mesh* const mesh = std::get_if<Mesh>(&object.shape);
     if (mesh != nullptr && !mesh->colors.empty()) set_kernel_surfaces(looks_[look]);
-    entries_.push_back({.mesh = mesh, .first_id = first, .look = look});
-    first += static_cast<PrimitiveId>(primitive_count(object.shape));
+    entries_.push_back({.mesh = mesh,
+                        .placements = run.placements,
+                        .first_id = primitives.first_id_of_run(entries_.size()),
+                        .look = look});
     all_cover_ &= looks_[entries_.back().look].is_opaque;
     has_open_backs_ |= looks_[entries_.back().look].has_open_back;
   }
   for (const TexturedMaterial& look : looks_) flat_triangles_.add_surface(look);
-  for (const Entry& entry : entries_) {
-    if (entry.mesh != nullptr)
-      flat_triangles_.add_mesh(*entry.mesh, entry.first_id, entry.look, looks_[entry.look]);
-  }
+  for (std::size_t run = 0; run < entries_.size(); ++run)
+    for_each_mesh(run, [&](const PlacedMesh& mesh, PrimitiveId first_id) {
+      const std::uint32_t look = entries_[run].look;
+      flat_triangles_.add_mesh(mesh, first_id, look, looks_[look]);
+    });
   if (has_open_backs_) find_open_fronts();
   find_masked();
 }
@@ -152,31 +155,32 @@ void Shading::find_open_fronts() {
   const std::size_t count = primitives_.count();
   take_memory(count / 8, "the one-sided surfaces of the scene");
   open_fronts_.resize(bit_set_size(count));
-  for (const Entry& entry : entries_) {
+  for (std::size_t run = 0; run < entries_.size(); ++run) {
+    const Entry& entry = entries_[run];
     if (!looks_[entry.look].has_open_back) continue;
     if (entry.mesh == nullptr) {
       open_fronts_.clear();
       return;
     }
-    const auto end = entry.first_id + static_cast<PrimitiveId>(entry.mesh->triangles.size());
-    insert(open_fronts_.data(), entry.first_id, end);
+    insert(open_fronts_.data(), entry.first_id, primitives_.first_id_of_run(run + 1));
   }
 }
 
 Shading::~Shading() = default;
 
 ShadingPoint Shading::point(const Ray& ray, const Hit& hit) const {
-  const Entry& entry = entries_[primitives_.object_index(hit.id)];
-  return {.at = surface_point(primitives_, ray, hit, entry.mesh, hit.id - entry.first_id),
+  const Entry& entry = entry_of(hit.id);
+  const MeshTriangle triangle = entry.triangle(hit.id);
+  return {.at = surface_point(primitives_, ray, hit, triangle.mesh, triangle.index),
           .look = &looks_[entry.look]};
 }
 
 ShadingPoint Shading::point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
                                float width) const {
-  const Entry& entry = entries_[primitives_.object_index(id)];
-  return {.at = entry.mesh == nullptr
-                    ? SurfacePoint{.front = front}
-                    : surface_point(*entry.mesh, id - entry.first_id, barycentrics, front),
+  const Entry& entry = entry_of(id);
+  const MeshTriangle triangle = entry.triangle(id);
+  return {.at = triangle.mesh ? surface_point(triangle.mesh, triangle.index, barycentrics, front)
+                              : SurfacePoint{.front = front},
           .look = &looks_[entry.look],
           .width = width};
 }

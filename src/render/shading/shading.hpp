@@ -25,6 +25,12 @@ namespace microtrace {
 
 struct HitGroup;
 
+/// A triangle of a mesh.
+struct MeshTriangle {
+  PlacedMesh mesh{};
+  std::size_t index = 0;
+};
+
 class SharedTables;
 class TextureMaps;
 
@@ -125,9 +131,9 @@ class Shading {
   /// light there that doesn't arrive through an open back.
   [[nodiscard]] bool blocks_unless_transparent(PrimitiveId id) const {
     if (all_cover_) return true;
-    const Entry& entry = entries_[primitives_.object_index(id)];
+    const Entry& entry = entry_of(id);
     const TexturedMaterial& look = looks_[entry.look];
-    return look.is_opaque || (entry.first_map != kNoMap && look.is_opaque_if_visible);
+    return look.is_opaque || (entry.has_maps() && look.is_opaque_if_visible);
   }
 
   /// The radiance emitted toward the ray's origin; 0 on the back of one-sided surfaces. Unlit
@@ -140,7 +146,7 @@ class Shading {
   [[nodiscard]] const BsdfInput& bsdf_input(const ShadingPoint& point, int channel,
                                             const Medium* outside,
                                             std::optional<BsdfInput>& varying) const {
-    const bool has_colors = point.at.mesh != nullptr && !point.at.mesh->colors.empty();
+    const bool has_colors = point.at.mesh && !point.at.mesh.arrays->colors.empty();
     const TexturedMaterial& look = *point.look;
     if (look.constant_but_textures && !look.is_textured && !has_colors)
       return *look.constant_but_textures;
@@ -154,19 +160,53 @@ class Shading {
 
  private:
   static constexpr std::size_t kNoMap = ~std::size_t{0};
+  /// The objects of a run.
   struct Entry {
-    const Mesh* mesh;
+    const Mesh* mesh;             // of the first; null if they are not meshes
+    const Placement* placements;  // of each; null if there is only one
     PrimitiveId first_id;
     std::uint32_t look;
-    std::size_t first_map = kNoMap;  // of the triangles, see OpacityMaps
+    // Of the triangles of a mesh that is not mirrored and of one that is, see OpacityMaps.
+    std::array<std::size_t, 2> first_map{kNoMap, kNoMap};
+
+    /// The mesh is without arrays if the primitive is not a triangle of one.
+    [[nodiscard]] MeshTriangle triangle(PrimitiveId id) const {
+      const PrimitiveId index = id - first_id;
+      if (mesh == nullptr) return {};
+      if (placements == nullptr) return {.mesh = *mesh, .index = index};
+      const auto size = static_cast<PrimitiveId>(mesh->triangles.size());
+      return {.mesh = {*mesh, placements + index / size}, .index = index % size};
+    }
+    [[nodiscard]] std::size_t& first_map_of(const PlacedMesh& of) {
+      return first_map[of.is_mirrored() ? 1 : 0];
+    }
+    [[nodiscard]] std::size_t map(const MeshTriangle& of) const {
+      return first_map[of.mesh.is_mirrored() ? 1 : 0] + of.index;
+    }
+    [[nodiscard]] bool has_maps() const { return first_map != std::array{kNoMap, kNoMap}; }
   };
+  /// Calls f(mesh, its lowest PrimitiveId) for the meshes of a run.
+  template <class F>
+  void for_each_mesh(std::size_t run, const F& f) const {
+    const ObjectRun objects = primitives_.scene().objects.run(run);
+    PrimitiveId id = entries_[run].first_id;
+    for (std::size_t i = 0; i < objects.count; ++i) {
+      const PlacedMesh mesh = objects.mesh(i);
+      if (!mesh) return;
+      f(mesh, id);
+      id += static_cast<PrimitiveId>(mesh.arrays->triangles.size());
+    }
+  }
 
   [[nodiscard]] static bsdf::Parameters parameters(const ShadingPoint& point, int channel,
                                                    const Medium* outside);
   [[nodiscard]] static bsdf::Layers layers(const ShadingPoint& point);
   [[nodiscard]] static Vec4 base_color(const ShadingPoint& point);
+  [[nodiscard]] const Entry& entry_of(PrimitiveId id) const {
+    return entries_[primitives_.run_index(id)];
+  }
   [[nodiscard]] const TexturedMaterial& look_of(PrimitiveId id) const {
-    return looks_[entries_[primitives_.object_index(id)].look];
+    return looks_[entry_of(id).look];
   }
   void find_open_fronts();
   void find_masked();
@@ -187,7 +227,7 @@ class Shading {
   // By material, then for objects without a material, then for closed shapes whose material is
   // one-sided.
   std::vector<TexturedMaterial> looks_;
-  std::vector<Entry> entries_;  // by object
+  std::vector<Entry> entries_;  // by run of objects
   FlatTriangles flat_triangles_;
   std::vector<std::uint32_t> open_fronts_, masked_;
   OpacityMaps opacity_;

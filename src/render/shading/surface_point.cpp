@@ -28,7 +28,7 @@ SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hi
                       .ns = Vec3(at.ns),
                       .front = at.front,
                       .distance = hit.t * std::sqrt(glm::dot(ray.d, ray.d))};
-  if (!at.triangle || at.triangle->mesh == nullptr) return result;
+  if (!at.triangle || !at.triangle->mesh) return result;
   result.mesh = at.triangle->mesh;
   result.is_edge_on = true;
   result.corners = at.triangle->corners;
@@ -38,40 +38,42 @@ SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hi
 }
 
 Vec2 SurfacePoint::further_uv(std::uint32_t set) const {
-  if (mesh == nullptr || set >= mesh->uv_sets.size() || mesh->uv_sets[set].empty()) return Vec2(0);
-  return weighed(corners, barycentrics, mesh->uv_sets[set]);
+  if (!mesh) return Vec2(0);
+  const auto& sets = mesh.arrays->uv_sets;
+  return set < sets.size() && !sets[set].empty() ? weighed(corners, barycentrics, sets[set])
+                                                 : Vec2(0);
 }
 
 Vec4 SurfacePoint::color() const {
   return vertex_color(mesh, corners, barycentrics);
 }
 
-Vec4 vertex_color(const Mesh* mesh, const std::array<std::uint32_t, 3>& corners,
+Vec4 vertex_color(const PlacedMesh& mesh, const std::array<std::uint32_t, 3>& corners,
                   const Vec3& barycentrics) {
-  if (mesh == nullptr || mesh->colors.empty()) return Vec4(1);
-  return weighed(corners, barycentrics, mesh->colors);
+  if (!mesh || mesh.arrays->colors.empty()) return Vec4(1);
+  return weighed(corners, barycentrics, mesh.arrays->colors);
 }
 
 Vec4 SurfacePoint::tangent() const {
-  if (mesh == nullptr || mesh->tangents.empty()) return Vec4(0);
-  const Vec4 first = mesh->tangent(corners[0]);
-  const Vec3 sum(barycentrics.x * first + barycentrics.y * mesh->tangent(corners[1]) +
-                 barycentrics.z * mesh->tangent(corners[2]));
+  if (!mesh || mesh.arrays->tangents.empty()) return Vec4(0);
+  const Vec4 first = mesh.tangent(corners[0]);
+  const Vec3 sum(barycentrics.x * first + barycentrics.y * mesh.tangent(corners[1]) +
+                 barycentrics.z * mesh.tangent(corners[2]));
   const Tangent<1> tangent = tangent_along<1>(sum, first.w, ns);
   return tangent.handedness == 0 ? Vec4(0) : Vec4(tangent.t, tangent.handedness);
 }
 
 SurfacePoint surface_point(const Primitives& primitives, const Ray& ray, const Hit& hit,
-                           const Mesh* mesh, std::size_t triangle) {
-  if (mesh == nullptr) return rounded(interact(primitives, ray, hit), ray, hit);
+                           const PlacedMesh& mesh, std::size_t triangle) {
+  if (!mesh) return rounded(interact(primitives, ray, hit), ray, hit);
   SurfacePoint at;
   at.mesh = mesh;
-  at.corners = mesh->corners(triangle);
+  at.corners = mesh.corners(triangle);
   HitArrays<1> lanes;
   put(lanes.o, 0, ray.o);
   put(lanes.d, 0, ray.d);
-  put_positions(lanes, 0, *mesh, at.corners);
-  put_attributes(lanes, 0, *mesh, at.corners);
+  put_positions(lanes, 0, mesh, at.corners);
+  put_attributes(lanes, 0, mesh, at.corners);
   find_points<1>(lanes);
   // Triangles that are edge-on or have no area are rare.
   if (lanes.is_sure[0] == 0) return rounded(interact(primitives, ray, hit), ray, hit);
@@ -79,10 +81,10 @@ SurfacePoint surface_point(const Primitives& primitives, const Ray& ray, const H
   return at;
 }
 
-SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle, const Vec3& barycentrics,
+SurfacePoint surface_point(const PlacedMesh& mesh, std::size_t triangle, const Vec3& barycentrics,
                            bool front) {
   SurfacePoint at;
-  at.mesh = &mesh;
+  at.mesh = mesh;
   at.corners = mesh.corners(triangle);
   at.barycentrics = barycentrics;
   at.front = front;

@@ -16,13 +16,13 @@ namespace microtrace {
 
 /// A point on a surface, in world space. Its bits are the same on every machine.
 struct SurfacePoint {
-  Vec3 p{0};                   ///< the position, rounded
-  Vec3 n{0, 0, 1};             ///< unit geometric normal of the front side
-  Vec3 ns{0, 0, 1};            ///< unit shading normal of the front side
-  bool front = true;           ///< true if the ray arrives at the front side
-  float distance = 0;          ///< distance from the ray's origin
-  const Mesh* mesh = nullptr;  ///< null if the primitive is not a mesh triangle
-  bool is_edge_on = false;     ///< true for mesh triangles for which find_points() is not sure
+  Vec3 p{0};                ///< the position, rounded
+  Vec3 n{0, 0, 1};          ///< unit geometric normal of the front side
+  Vec3 ns{0, 0, 1};         ///< unit shading normal of the front side
+  bool front = true;        ///< true if the ray arrives at the front side
+  float distance = 0;       ///< distance from the ray's origin
+  PlacedMesh mesh{};        ///< without arrays if the primitive is not a mesh triangle
+  bool is_edge_on = false;  ///< true for mesh triangles for which find_points() is not sure
   std::array<std::uint32_t, 3> corners{};  ///< vertex indices of the triangle
   Vec3 barycentrics{1, 0, 0};              ///< weights of the vertices
   Vec2 first_uv{0};    ///< texture coordinates of set 0; (0, 0) if the mesh has none
@@ -43,19 +43,20 @@ struct SurfacePoint {
 };
 
 /// The interpolated vertex color; white if there are none.
-[[nodiscard]] Vec4 vertex_color(const Mesh* mesh, const std::array<std::uint32_t, 3>& corners,
+[[nodiscard]] Vec4 vertex_color(const PlacedMesh& mesh, const std::array<std::uint32_t, 3>& corners,
                                 const Vec3& barycentrics);
 
 /// The point on any shape, rounded from the result of interact().
 [[nodiscard]] SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hit);
 
 /// The point of `hit`, which must be a hit of `ray`. `triangle` is the index of a mesh triangle in
-/// `mesh`; for other primitives, `mesh` is null.
+/// `mesh`; for other primitives, `mesh` has no arrays.
 [[nodiscard]] SurfacePoint surface_point(const Primitives& primitives, const Ray& ray,
-                                         const Hit& hit, const Mesh* mesh, std::size_t triangle);
+                                         const Hit& hit, const PlacedMesh& mesh,
+                                         std::size_t triangle);
 
 /// The point on a mesh triangle that has these barycentric coordinates.
-[[nodiscard]] SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle,
+[[nodiscard]] SurfacePoint surface_point(const PlacedMesh& mesh, std::size_t triangle,
                                          const Vec3& barycentrics, bool front);
 
 }  // namespace microtrace

@@ -29,10 +29,10 @@ void merge(Scene& whole, Scene&& part) {
                      [&](TextureUse& use, ColorEncoding) { use.texture += first_texture; });
   }
   const std::uint32_t first_material = append(whole.materials, part.materials);
-  for (Object& object : part.objects) {
+  part.objects.edit_runs([&](Object& object) {
     if (object.material) *object.material += first_material;
-  }
-  append(whole.objects, part.objects);
+  });
+  whole.objects.append(std::move(part.objects));
 }
 
 }  // namespace microtrace

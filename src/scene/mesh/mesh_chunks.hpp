@@ -29,11 +29,11 @@ class MeshChunks {
   /// the chunks that reach farthest along each axis, after which most others can be skipped,
   /// unless there are only a few. May visit a chunk twice.
   template <class Skips, class Point>
-  void visit(const Mesh& mesh, const Skips& skips, const Point& point) const {
+  void visit(const PlacedMesh& mesh, const Skips& skips, const Point& point) const {
     const std::vector<Box> boxes = placed(*mesh.placement);
     const auto visit_chunk = [&](std::size_t i) {
       if (!(boxes[i].lo.x <= boxes[i].hi.x) || skips(boxes[i])) return;
-      const std::size_t end = std::min(mesh.positions.size(), (i + 1) * kSize);
+      const std::size_t end = std::min(mesh.arrays->positions.size(), (i + 1) * kSize);
       for (std::size_t k = i * kSize; k < end; ++k) point(mesh.position(k));
     };
     constexpr std::size_t kFew = 6;

@@ -24,9 +24,9 @@ namespace {
 template <class Counts>
 std::uint64_t memory_of_objects(const Scene& scene, const Counts& counts) {
   std::uint64_t result = scene.objects.size() * sizeof(Object);
-  for (const Object& object : scene.objects) {
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh != nullptr && counts(*mesh)) result += memory_of(*mesh);
+  for (const ObjectRun& run : scene.objects.runs()) {
+    const PlacedMesh mesh = run.mesh(0);
+    if (mesh && counts(*mesh.arrays)) result += run.count * memory_of(*mesh.arrays);
   }
   return result;
 }

@@ -67,10 +67,9 @@ void widen(Mesh& mesh, const SegmentWidener& widened) {
 }  // namespace
 
 bool has_segments(const Scene& scene) {
-  return std::ranges::any_of(scene.objects, [](const Object& object) {
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    return mesh != nullptr && !mesh->segments.empty();
-  });
+  for (const ObjectRun& run : scene.objects.runs())
+    if (const PlacedMesh mesh = run.mesh(0); mesh && !mesh.arrays->segments.empty()) return true;
+  return false;
 }
 
 void widen_segments(Scene& scene, const Camera& camera, ImageSize size) {

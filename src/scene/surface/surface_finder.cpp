@@ -31,11 +31,6 @@ constexpr std::array<std::uint32_t, 3> kCorners{0, 1, 2};
 /// Stands for a placed mesh.
 constexpr std::uint32_t kPlaced = std::numeric_limits<std::uint32_t>::max();
 
-bool is_placed(const Object& object) {
-  const auto* mesh = std::get_if<Mesh>(&object.shape);
-  return mesh != nullptr && mesh->placement;
-}
-
 MeshArrays arrays_of(const Triangle& triangle) {
   static_assert(sizeof(Triangle) == 3 * sizeof(Vec3));
   return {.positions = &triangle.a, .corners = kCorners.data()};
@@ -52,13 +47,13 @@ struct PlacedTriangle {
   Vec2 uv[3];
   MeshArrays arrays;
 
-  void set(const Mesh& mesh, PrimitiveId primitive) {
+  void set(const PlacedMesh& mesh, PrimitiveId primitive) {
     const auto corners = mesh.corners(primitive);
-    const bool has_normals = !mesh.normals.empty(), has_set = has_uv(mesh);
+    const bool has_normals = !mesh.arrays->normals.empty(), has_set = has_uv(*mesh.arrays);
     triangle = triangle_of(mesh, primitive);
     for (std::size_t k = 0; k < 3; ++k) {
       if (has_normals) normals[k] = mesh.normal(corners[k]);
-      if (has_set) uv[k] = mesh.uv_sets[0][corners[k]];
+      if (has_set) uv[k] = mesh.arrays->uv_sets[0][corners[k]];
     }
     arrays = arrays_of(triangle);
     arrays.normals = has_normals ? normals : nullptr;
@@ -83,67 +78,68 @@ void set(SurfaceBatch& batch, std::size_t i, const SurfaceInteraction& at) {
 }  // namespace
 
 SurfaceFinder::SurfaceFinder(const Primitives& primitives) : primitives_(primitives) {
-  std::span<const Object> objects = primitives.scene().objects;
-  while (!objects.empty() && is_placed(objects.back())) objects = objects.first(objects.size() - 1);
-  mesh_of_object_.reserve(objects.size());
-  for (const Object& object : objects) {
-    if (is_placed(object)) {
-      mesh_of_object_.push_back(kPlaced);
+  const Objects& objects = primitives.scene().objects;
+  const auto is_placed = [&](std::size_t run) {
+    return objects.run(run).mesh(0).placement != nullptr;
+  };
+  std::size_t count = objects.runs().size();
+  while (count > 0 && is_placed(count - 1)) --count;
+  mesh_of_run_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_placed(i)) {
+      mesh_of_run_.push_back(kPlaced);
       continue;
     }
     const MeshArrays arrays =
-        std::visit([](const auto& shape) { return arrays_of(shape); }, object.shape);
+        std::visit([](const auto& shape) { return arrays_of(shape); }, objects.run(i).first->shape);
     const bool has_triangles = arrays.positions != nullptr;
-    mesh_of_object_.push_back(has_triangles ? static_cast<std::uint32_t>(meshes_.size()) : 0);
+    mesh_of_run_.push_back(has_triangles ? static_cast<std::uint32_t>(meshes_.size()) : 0);
     if (has_triangles) meshes_.push_back(arrays);
   }
 }
 
 template <class Visit>
 void SurfaceFinder::for_each(const Primitives& primitives, Hits hits, const Visit& visit) {
-  std::size_t object = 0;
-  PrimitiveId first = 0, end = 0;
+  PlacedObject object{};
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i]) continue;
     const PrimitiveId id = hits[i]->id;
     // Most hits are on the same object as the previous hit.
-    if (id < first || id >= end) {
-      object = primitives.object_index(id);
-      first = primitives.first_id_of(object);
-      end = primitives.end_id_of(object);
-    }
-    visit(i, object, id - first);
+    if (id < object.first_id || id >= object.end_id) object = primitives.object_of(id);
+    visit(i, object, id - object.first_id);
   }
 }
 
 void SurfaceFinder::find_ids(Hits hits, SurfaceBatch& batch) const {
-  for_each(primitives_, hits, [&](std::size_t i, std::size_t object, PrimitiveId primitive) {
-    batch.object[i] = static_cast<std::uint32_t>(object);
-    batch.primitive[i] = primitive;
-  });
+  for_each(primitives_, hits,
+           [&](std::size_t i, const PlacedObject& object, PrimitiveId primitive) {
+             batch.object[i] = static_cast<std::uint32_t>(object.index);
+             batch.primitive[i] = primitive;
+           });
 }
 
 void SurfaceFinder::find(std::span<const Ray> rays, Hits hits, const SurfaceParts& parts,
                          SurfaceBatch& batch, const SceneKernels& kernels) const {
-  const std::vector<Object>& objects = primitives_.scene().objects;
   std::uint64_t others = 0;
   batch.triangles = 0;
   std::unique_ptr<std::array<PlacedTriangle, kSurfaceLanes>> placed;  // made if there are any
-  for_each(primitives_, hits, [&](std::size_t i, std::size_t object, PrimitiveId primitive) {
-    batch.object[i] = static_cast<std::uint32_t>(object);
-    batch.primitive[i] = primitive;
-    const std::uint32_t mesh = object < mesh_of_object_.size() ? mesh_of_object_[object] : kPlaced;
-    if (mesh == kPlaced) {
-      if (!placed) placed = std::make_unique<std::array<PlacedTriangle, kSurfaceLanes>>();
-      (*placed)[i].set(std::get<Mesh>(objects[object].shape), primitive);
-      batch.mesh[i] = &(*placed)[i].arrays;
-      batch.corners[i] = kCorners.data();
-    } else {
-      batch.mesh[i] = &meshes_[mesh];
-      batch.corners[i] = meshes_[mesh].corners + std::size_t{3} * primitive;
-    }
-    (mesh != 0 ? batch.triangles : others) |= std::uint64_t{1} << i;
-  });
+  for_each(primitives_, hits,
+           [&](std::size_t i, const PlacedObject& object, PrimitiveId primitive) {
+             batch.object[i] = static_cast<std::uint32_t>(object.index);
+             batch.primitive[i] = primitive;
+             const std::uint32_t mesh =
+                 object.run < mesh_of_run_.size() ? mesh_of_run_[object.run] : kPlaced;
+             if (mesh == kPlaced) {
+               if (!placed) placed = std::make_unique<std::array<PlacedTriangle, kSurfaceLanes>>();
+               (*placed)[i].set(object.mesh, primitive);
+               batch.mesh[i] = &(*placed)[i].arrays;
+               batch.corners[i] = kCorners.data();
+             } else {
+               batch.mesh[i] = &meshes_[mesh];
+               batch.corners[i] = meshes_[mesh].corners + std::size_t{3} * primitive;
+             }
+             (mesh != 0 ? batch.triangles : others) |= std::uint64_t{1} << i;
+           });
   if (batch.triangles != 0)
     others |= batch.triangles & ~kernels.find_surfaces(rays.data(), parts, batch);
   for (; others != 0; others &= others - 1) {

@@ -34,7 +34,7 @@ class SurfaceFinder {
             SurfaceBatch& batch) const;
 
  private:
-  /// Calls visit(i, index of the hit object, index of the primitive in it) for each hit i.
+  /// Calls visit(i, the hit object, index of the primitive in it) for each hit i.
   template <class Visit>
   static void for_each(const Primitives& primitives, Hits hits, const Visit& visit);
 
@@ -42,8 +42,9 @@ class SurfaceFinder {
   // The meshes of the scene's objects. There may be millions of placed meshes, whose arrays need a
   // transform; they have no elements. The first element stands for shapes without triangles.
   std::vector<MeshArrays> meshes_{{}};
-  // Indices into meshes_, or kPlaced. Ends with the last object that is not a placed mesh.
-  std::vector<std::uint32_t> mesh_of_object_;
+  // By run of objects: indices into meshes_, or kPlaced. Ends with the last run that is not of
+  // placed meshes.
+  std::vector<std::uint32_t> mesh_of_run_;
 };
 
 }  // namespace microtrace

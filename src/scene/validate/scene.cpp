@@ -66,9 +66,9 @@ void check_environment(const Environment& environment) {
 
 /// Checks the indices and sizes outside meshes.
 void check_references(const Scene& scene) {
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (const auto& material = scene.objects[i].material)
-      check_index("objects", i, "material", *material, scene.materials.size());
+  for (const ObjectRun& run : scene.objects.runs()) {
+    if (const auto& material = run.first->material)
+      check_index("objects", run.begin, "material", *material, scene.materials.size());
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     for_each_texture(scene.materials[i], [&](const TextureUse& use, ColorEncoding) {
@@ -100,25 +100,26 @@ std::optional<BrokenRule> broken_member(const Scene& scene) {
 
 void check_indices(const Scene& scene) {
   SharedMeshes checked;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const auto* mesh = std::get_if<Mesh>(&scene.objects[i].shape);
-    if (mesh == nullptr || !checked.add(*mesh)) continue;
-    if (const auto broken = broken_index(*mesh)) refuse(item("objects", i) + "/shape", *broken);
+  for (const ObjectRun& run : scene.objects.runs()) {
+    const PlacedMesh mesh = run.mesh(0);
+    if (!mesh || !checked.add(*mesh.arrays)) continue;
+    if (const auto broken = broken_index(*mesh.arrays))
+      refuse(item("objects", run.begin) + "/shape", *broken);
   }
   check_references(scene);
 }
 
 void validate(const Scene& scene) {
   SharedMeshes checked;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const auto* mesh = std::get_if<Mesh>(&scene.objects[i].shape);
-    if (mesh != nullptr && mesh->placement) {
-      if (const auto broken = broken_placement(*mesh))
-        refuse(item("objects", i) + "/shape", *broken);
-      if (!checked.add(*mesh)) continue;
+  for (const ObjectRun& run : scene.objects.runs()) {
+    if (const PlacedMesh first = run.mesh(0); first.placement != nullptr) {
+      for (std::size_t i = 0; i < run.count; ++i)
+        if (const auto broken = broken_placement(run.mesh(i)))
+          refuse(item("objects", run.begin + i) + "/shape", *broken);
+      if (!checked.add(*first.arrays)) continue;
     }
-    if (const auto broken = validate(scene.objects[i].shape))
-      refuse(item("objects", i) + "/shape", *broken);
+    if (const auto broken = validate(run.first->shape))
+      refuse(item("objects", run.begin) + "/shape", *broken);
   }
   check_references(scene);
   if (const auto broken = broken_member(scene)) refuse("", *broken);

@@ -230,8 +230,9 @@ std::optional<BrokenRule> broken_index(const Mesh& mesh) {
   return check_primitives(mesh);
 }
 
-std::optional<BrokenRule> broken_placement(const Mesh& mesh) {
-  if (!mesh.segments.empty()) return BrokenRule{"segments", "must be empty if the mesh is placed"};
+std::optional<BrokenRule> broken_placement(const PlacedMesh& mesh) {
+  if (!mesh.arrays->segments.empty())
+    return BrokenRule{"segments", "must be empty if the mesh is placed"};
   for (int k = 0; k < 4; ++k) {
     if (Rule rule = finite("placement", mesh.placement->column(k))) return rule;
   }

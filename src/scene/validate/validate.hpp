@@ -37,7 +37,7 @@ struct BrokenRule {
 [[nodiscard]] std::optional<BrokenRule> broken_index(const Mesh& mesh);
 
 /// Checks the placement of a placed mesh.
-[[nodiscard]] std::optional<BrokenRule> broken_placement(const Mesh& mesh);
+[[nodiscard]] std::optional<BrokenRule> broken_placement(const PlacedMesh& mesh);
 
 /// Checks that position, direction and up are finite, and that direction and up are not zero in
 /// float32. Up must be at least 1e-9 radians from parallel to direction. vertical_fov must be in

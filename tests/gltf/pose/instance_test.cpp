@@ -58,6 +58,24 @@ TEST(GltfInstances, AreTransformedWithinTheirNode) {
               ElementsAre(std::array{Vec3(100, 10, 0), Vec3(98, 10, 0), Vec3(100, 7, 0)}));
 }
 
+TEST(GltfInstances, AreStoredAsOneRunIfTheyShareAMesh) {
+  AssetBuilder asset = instanced_triangle();
+  instantiate(asset, {{"TRANSLATION", add_attribute<float>(asset, kFloat32, "VEC3", false,
+                                                           {0, 0, 0, 0, 10, 0, 0, 20, 0}, 3)}});
+  const LoadedScene copied = load(asset, {.instancing = Instancing::copied});
+  const LoadedScene shared = load(asset, {.instancing = Instancing::shared});
+  const Objects& objects = shared.scene.objects;
+  EXPECT_EQ(objects.runs().size(), 1U);
+  ASSERT_THAT(objects, SizeIs(3));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(objects.name(i), copied.scene.objects[i].name);
+    EXPECT_EQ(objects[i].name, copied.scene.objects[i].name);
+    const auto& mesh = std::get<Mesh>(objects[i].shape);
+    const auto& copy = std::get<Mesh>(copied.scene.objects[i].shape);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(mesh.position(k), copy.positions[k]);
+  }
+}
+
 TEST(GltfInstances, CustomAttributesMayDefineTheirNumber) {
   AssetBuilder asset = instanced_triangle();
   instantiate(asset,

@@ -95,6 +95,13 @@ PlacedScenes random_placed_scenes(Random& random, PlacementKind kind) {
   for (int meshes = random.between(1, 2); meshes > 0; --meshes) {
     const Mesh mesh = shared_mesh(random);
     DMat4 last(1);
+    if (random.one_in(3)) {
+      std::vector<Placement> placements;
+      for (int i = random.between(1, 6); i > 0; --i)
+        placements.emplace_back(placement(random, kind));
+      scenes.add_run(mesh, placements);
+      continue;
+    }
     for (int i = random.between(1, 6); i > 0; --i) {
       Mesh placed = mesh;
       if (random.one_in(4)) placed.triangles = beginning_of(mesh.triangles, random);

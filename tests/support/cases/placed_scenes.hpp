@@ -35,13 +35,22 @@ struct PlacedScenes {
     if (const auto* mesh = std::get_if<Mesh>(&shape)) shape = microtrace::baked(*mesh);
     baked.objects.push_back({.name = "", .shape = std::move(shape)});
   }
+  /// Adds a run of instances.
+  void add_run(Mesh mesh, const std::vector<Placement>& placements) {
+    instanced.objects.push_back_run({.name = "", .shape = mesh}, placements);
+    for (const Placement& placement : placements) {
+      mesh.placement = std::make_shared<const Placement>(placement);
+      baked.objects.push_back({.name = "", .shape = microtrace::baked(mesh)});
+    }
+  }
 };
 
 /// Returns a mesh whose copies share its arrays.
 [[nodiscard]] Mesh shared_mesh(Random& random);
 
 /// Returns scenes in which up to two meshes are placed up to six times each, some at the same
-/// place and some without their last triangles, with copies of the meshes and other shapes.
+/// place, some in runs and some without their last triangles, with copies of the meshes and other
+/// shapes.
 [[nodiscard]] PlacedScenes random_placed_scenes(Random& random, PlacementKind kind);
 
 }  // namespace microtrace::adversarial

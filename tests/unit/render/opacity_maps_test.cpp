@@ -257,7 +257,7 @@ TEST(MaskedTriangles, AreTransparentWhereTheirCoverageIsZero) {
         const ShadingPoint point = shading.point(ray, {.id = id, .t = 1});
         const bool is_masked = shading.masked() != nullptr && shading.is_masked(id);
         // Edge-on triangles have no texture coordinates.
-        if (!is_masked && point.at.mesh == nullptr) continue;
+        if (!is_masked && !point.at.mesh) continue;
         const bool expected = shading.coverage(point.unfiltered(), false) == 0;
         const bool found = is_masked && shading.is_transparent(ray, id);
         ASSERT_EQ(found, expected) << "scene " << round << ", triangle " << id;

@@ -22,7 +22,7 @@ Scene scene_of_a_triangle() {
 TEST(SurfacePoint, EdgeOnTrianglesKeepTheirAttributes) {
   const Scene scene = scene_of_a_triangle();
   const Bvh bvh(scene);
-  const auto* mesh = std::get_if<Mesh>(&scene.objects[0].shape);
+  const auto& mesh = std::get<Mesh>(scene.objects[0].shape);
   // The ray lies in the plane and enters the triangle at (3, 1, 0).
   const Ray ray{.o = {5, 1, 0}, .d = {-1, 0, 0}};
   const auto hit = bvh.intersect(ray);
@@ -37,7 +37,7 @@ TEST(SurfacePoint, EdgeOnTrianglesKeepTheirAttributes) {
 TEST(SurfacePoint, EdgeOnAndOtherRaysAgree) {
   const Scene scene = scene_of_a_triangle();
   const Bvh bvh(scene);
-  const auto* mesh = std::get_if<Mesh>(&scene.objects[0].shape);
+  const auto& mesh = std::get<Mesh>(scene.objects[0].shape);
   const Ray ray{.o = {3, 1, 2}, .d = {0, 0, -1}};
   const auto hit = bvh.intersect(ray);
   ASSERT_TRUE(hit);

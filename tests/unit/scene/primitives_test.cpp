@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 namespace microtrace {
@@ -61,6 +62,34 @@ TEST(Primitives, FindsTheObjectOfEachPrimitiveOfRandomScenes) {
     std::vector<std::size_t> sizes(1 + random() % 60);
     for (std::size_t& size : sizes) size = random() % 4 == 0 ? random() % 3000 : random() % 3;
     expect_all_found(sizes);
+  }
+}
+
+TEST(Primitives, FindsTheObjectOfEachPrimitiveOfRuns) {
+  Scene runs, single;
+  std::size_t size = 1;
+  for (const std::size_t count : {1U, 3U, 1U, 2000U}) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles.assign(size++, {0, 1, 2});
+    std::vector<Placement> placements;
+    for (std::size_t i = 0; i < count; ++i)
+      placements.emplace_back(glm::translate(DMat4(1), DVec3(static_cast<double>(i), 0, 0)));
+    runs.objects.push_back_run({.name = {}, .shape = mesh}, placements);
+    runs.objects.push_back({.name = {}, .shape = Sphere{}});
+  }
+  single.objects = runs.objects.all();
+  const Primitives primitives(runs), expected(single);
+  ASSERT_EQ(primitives.count(), expected.count());
+  for (PrimitiveId id = 0; id < primitives.count(); ++id) {
+    const std::size_t object = expected.object_index(id);
+    ASSERT_EQ(primitives.object_index(id), object);
+    ASSERT_EQ(primitives.first_id(id), expected.first_id_of(object));
+    ASSERT_EQ(primitives.first_id_of(object), expected.first_id_of(object));
+    ASSERT_EQ(primitives.end_id_of(object), expected.end_id_of(object));
+    const auto triangle = primitives.triangle(id), same = expected.triangle(id);
+    ASSERT_EQ(triangle.has_value(), same.has_value());
+    if (triangle) ASSERT_EQ(triangle->a, same->a);
   }
 }
 

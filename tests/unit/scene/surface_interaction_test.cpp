@@ -26,7 +26,7 @@ SurfaceInteraction meet(Shape shape, const Ray& ray) {
   Scene scene;
   scene.objects.push_back({.name = "one", .shape = std::move(shape)});
   SurfaceInteraction result = meet(scene, ray);
-  if (result.triangle) result.triangle->mesh = nullptr;  // the scene is destroyed on return
+  if (result.triangle) result.triangle->mesh = {};  // the scene is destroyed on return
   return result;
 }
 

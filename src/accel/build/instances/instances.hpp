@@ -19,7 +19,7 @@ namespace microtrace::build {
 class Instances {
  public:
   /// Finds the instances, and adds trees of their meshes to `tree`. Takes these from
-  /// options.previous if it has them.
+  /// options.previous if it has them. The arguments must outlive this object.
   Instances(const Primitives& primitives, const BuildOptions& options, Tree& tree);
 
   /// For each object, whether it is an instance. Placed meshes without an instance_box() are not,
@@ -33,12 +33,16 @@ class Instances {
   [[nodiscard]] Instance make(std::size_t object, const Box& box) const;
 
  private:
-  using Trees = std::unordered_map<MeshKey, const OwnedMeshTree*, MeshKey::Hash>;
+  /// Adds the object with index run.begin + i, whose mesh has this tree, if it is an instance.
+  void add(const ObjectRun& run, std::size_t i, const OwnedMeshTree& own);
+
+  using Trees = std::unordered_map<MeshKey, std::uint32_t, MeshKey::Hash>;
 
   const Primitives& primitives_;
+  const Tree& tree_;
   std::vector<bool> is_instance_;
   PageVector<Reference> references_;
-  Trees trees_;
+  Trees trees_;  // indices in tree_.meshes
 };
 
 /// Returns an upper bound of the memory of a build, in which each shared mesh counts once, unless

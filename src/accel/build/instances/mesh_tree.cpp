@@ -85,12 +85,10 @@ float rounded_up(double x) {
 }
 
 /// Returns an instance without what make_instance() computes.
-Instance placed(const OwnedMeshTree& tree, const Mesh& mesh, PrimitiveId first_id) {
+Instance placed(const Placement& placement) {
   Instance instance{};
-  instance.mesh = &tree.view;
-  instance.scene_from_mesh = &mesh.placement->column(0).x;
-  instance.first_id = first_id;
-  instance.is_mirrored = mesh.placement->is_mirrored() ? 1 : 0;
+  instance.scene_from_mesh = &placement.column(0).x;
+  instance.is_mirrored = placement.is_mirrored() ? 1 : 0;
   return instance;
 }
 
@@ -118,10 +116,10 @@ bool OwnedMeshTree::is_of(const Mesh& mesh) const {
          ArrayKey(triangles) == ArrayKey(mesh.triangles);
 }
 
-std::optional<build::Box> build::instance_box(const OwnedMeshTree& tree, const Mesh& mesh) {
+std::optional<build::Box> build::instance_box(const OwnedMeshTree& tree, const PlacedMesh& mesh) {
   const Placement& placement = *mesh.placement;
   if (!Inverse(placement).is_precise(placement)) return std::nullopt;
-  const Box box = scene_box(placed(tree, mesh, 0), tree.tree, mesh);
+  const Box box = scene_box(placed(placement), tree.tree, mesh);
   if (!fits_blocks(box)) return std::nullopt;
   const Bounds in_scene = bounds_of(box), &in_mesh = tree.tree.bounds;
   double extent = 0;
@@ -134,11 +132,9 @@ std::optional<build::Box> build::instance_box(const OwnedMeshTree& tree, const M
   return extent < kLeastExtent ? std::nullopt : std::optional(box);
 }
 
-Instance build::make_instance(const OwnedMeshTree& tree, const Mesh& mesh, PrimitiveId first_id,
-                              const Box& box) {
-  const Placement& placement = *mesh.placement;
+Instance build::make_instance(const Tree& of_mesh, const Placement& placement, const Box& box) {
   const Inverse inverse(placement);
-  const Bounds in_scene = bounds_of(box), &in_mesh = tree.tree.bounds;
+  const Bounds in_scene = bounds_of(box), &in_mesh = of_mesh.bounds;
   double reach = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double t = placement.column(3)[axis];
@@ -150,7 +146,7 @@ Instance build::make_instance(const OwnedMeshTree& tree, const Mesh& mesh, Primi
         1.01 * kUnit * greatest(in_scene.lo, in_scene.hi, axis) + 0x1p-49 * size + 0x1p-140;
     reach += 1.2 * rounding + 5 * kUnit * greatest(in_scene.lo, in_scene.hi, axis, t);
   }
-  Instance instance = placed(tree, mesh, first_id);
+  Instance instance = placed(placement);
   instance.reach = rounded_up(reach * (1 + 0x1p-20));
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)

@@ -35,12 +35,12 @@ namespace build {
 /// can't be an instance: if the placement is singular or nearly so, if it scales by more than 2^16
 /// or less than 2^-16, if the result exceeds the range of blocks, or if all of its coordinates are
 /// below 2^-100.
-[[nodiscard]] std::optional<Box> instance_box(const OwnedMeshTree& tree, const Mesh& mesh);
+[[nodiscard]] std::optional<Box> instance_box(const OwnedMeshTree& tree, const PlacedMesh& mesh);
 
-/// Returns the instance of a placed mesh that has this instance_box(). It refers to `tree` and to
-/// the mesh's placement.
-[[nodiscard]] Instance make_instance(const OwnedMeshTree& tree, const Mesh& mesh,
-                                     PrimitiveId first_id, const Box& box);
+/// Returns the instance of a mesh with this tree and this instance_box(), except for its first id
+/// and the index of its mesh. It refers to the placement.
+[[nodiscard]] Instance make_instance(const Tree& of_mesh, const Placement& placement,
+                                     const Box& box);
 
 }  // namespace build
 }  // namespace microtrace

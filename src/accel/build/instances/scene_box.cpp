@@ -19,7 +19,7 @@ bool contains(const Box& outer, const Box& inner) {
 
 class BoxFinder {
  public:
-  BoxFinder(const Instance& instance, const Tree& tree, const Mesh& mesh)
+  BoxFinder(const Instance& instance, const Tree& tree, const PlacedMesh& mesh)
       : instance_(instance), tree_(tree), mesh_(mesh) {}
 
   Box run() {
@@ -84,7 +84,7 @@ class BoxFinder {
 
   const Instance& instance_;
   const Tree& tree_;
-  const Mesh& mesh_;
+  const PlacedMesh& mesh_;
   const InstanceKernels& kernels_ = kInstanceKernels.best();
   Box box_;
   std::vector<ChildRef> open_;
@@ -92,7 +92,7 @@ class BoxFinder {
 
 }  // namespace
 
-Box scene_box(const Instance& instance, const Tree& tree, const Mesh& mesh) {
+Box scene_box(const Instance& instance, const Tree& tree, const PlacedMesh& mesh) {
   return BoxFinder(instance, tree, mesh).run();
 }
 

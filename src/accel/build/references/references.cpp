@@ -119,15 +119,20 @@ class Gatherer {
 
 References gather(const Primitives& primitives, const std::vector<bool>& is_instance) {
   References references{.primitives = &primitives};
-  const std::vector<Object>& objects = primitives.scene().objects;
+  const Objects& objects = primitives.scene().objects;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    if (!is_instance[i]) count += primitive_count(objects[i].shape);
+  const auto for_each_other = [&](const auto& f) {
+    for (const ObjectRun& run : objects.runs())
+      for (std::size_t i = 0; i < run.count; ++i)
+        if (!is_instance[run.begin + i]) f(run, i);
+  };
+  for_each_other(
+      [&](const ObjectRun& run, std::size_t) { count += primitive_count(run.first->shape); });
   references.items.reserve(count);
   Sharing sharing(count);
   Gatherer gatherer(references, sharing);
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    if (!is_instance[i]) primitives.for_each_of(i, gatherer);
+  for_each_other(
+      [&](const ObjectRun& run, std::size_t i) { primitives.for_each_of(run, i, gatherer); });
   gatherer.list_large();
   if (sharing.is_rare()) references.triangle_weight = kUnsharedWeight;
   const std::uint64_t triangles = references.items.size() - gatherer.others();

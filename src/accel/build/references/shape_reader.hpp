@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <type_traits>
-#include <variant>
 
 namespace microtrace::build {
 
@@ -21,12 +20,12 @@ class ShapeReader {
   template <class F>
   decltype(auto) visit(PrimitiveId id, F&& f) {
     if (!is_in_mesh(id)) {
-      const std::size_t object = primitives_->object_index(id);
-      const auto* mesh = std::get_if<Mesh>(&primitives_->scene().objects[object].shape);
-      if (mesh == nullptr || mesh->placement) return primitives_->visit(id, f);
-      first_ = primitives_->first_id_of(object);
-      triangles_ = {mesh->triangles.data(), mesh->triangles.size()};
-      positions_ = mesh->positions.data();
+      const PlacedObject object = primitives_->object_of(id);
+      const PlacedMesh& mesh = object.mesh;
+      if (!mesh || mesh.placement != nullptr) return primitives_->visit(id, f);
+      first_ = object.first_id;
+      triangles_ = {mesh.arrays->triangles.data(), mesh.arrays->triangles.size()};
+      positions_ = mesh.arrays->positions.data();
     }
     const auto [a, b, c] = triangles_[id - first_];
     return f(Triangle{.a = positions_[a], .b = positions_[b], .c = positions_[c]});

@@ -93,10 +93,11 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQueries& queries, i
   }
   if (is_instance(next)) {
     const Instance& instance = tree.instances[next - child_ref::kFirstInstance];
-    search.scope = Scope(instance);
+    const MeshTree& mesh = tree.meshes[instance.mesh];
+    search.scope = Scope(mesh, instance);
     enter(instance, query.box, search.inner);
     search.stack[search.size++] = kInstanceEnd;
-    search.stack[search.size++] = instance.mesh->root;
+    search.stack[search.size++] = mesh.root;
     return;
   }
   const auto [first, end] = entries_of(next);

@@ -37,13 +37,14 @@ class PacketWalk {
         scope_ = Scope(tree_);
       } else if (is_instance(entry.child)) {
         const Instance& instance = tree_.instances[entry.child - child_ref::kFirstInstance];
+        const MeshTree& mesh = tree_.meshes[instance.mesh];
         if (enter<N>(instance, packet_, entry.groups, inner_)) {
-          scope_ = Scope(instance);
+          scope_ = Scope(mesh, instance);
           inner_groups_.known = 0;
           stack[top++] = {kInstanceEnd, -__builtin_inff(), kAllGroups};
-          stack[top++] = {instance.mesh->root, entry.near, entry.groups};
+          stack[top++] = {mesh.root, entry.near, entry.groups};
         } else {
-          for (std::uint32_t i = 0; i < instance.mesh->triangles; ++i)
+          for (std::uint32_t i = 0; i < mesh.triangles; ++i)
             slow_.consider_all(slow_.context, instance.first_id + i, packet_);
           update_limits(kAllGroups);
         }

@@ -26,8 +26,10 @@ bool is_finite(const Mesh& mesh) {
 /// copies need less than about 150 MB, and rays through copies take less time.
 constexpr std::size_t kMostCopied = std::size_t{1} << 20;
 
-/// The size of an object, its placement, and the hash of its name.
-constexpr std::size_t kBytesOfObject = sizeof(Object) + sizeof(Placement) + sizeof(std::size_t);
+/// The size of an object of a run: its placement, and the hash of its name.
+constexpr std::size_t kBytesOfInstance = sizeof(Placement) + sizeof(std::size_t);
+/// The size of another object, with its placement and the hash of its name.
+constexpr std::size_t kBytesOfObject = sizeof(Object) + kBytesOfInstance;
 
 // A scene may have millions of objects.
 static_assert(sizeof(Object) <= 104);
@@ -71,14 +73,16 @@ bool ObjectMaker::is_shared(std::size_t node, const Surface& surface) const {
 
 void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
   choose_shared(nodes);
-  std::size_t objects = 0, triangles = 0, vertices = 0;
+  std::size_t runs = 0, triangles = 0, vertices = 0;
   std::uint64_t primitives = 0;  // including those of instances
   std::uint64_t bytes = 0;
   for_each_numbered(nodes, [&](const PlacedNode& placed, std::size_t times) {
     const std::size_t mesh = *model_.nodes[placed.node].mesh;
-    objects += times * surfaces_[mesh].size();
-    bytes += surfaces_[mesh].size() *
-             (times * kBytesOfObject + kBytesOfName + tree_.path(placed.node).size());
+    const bool is_run = surface_of_run(placed) != nullptr;
+    const std::size_t objects = is_run ? 1 : times * surfaces_[mesh].size();
+    runs += objects;
+    bytes += objects * kBytesOfObject + (is_run ? times * kBytesOfInstance : 0) +
+             surfaces_[mesh].size() * (kBytesOfName + tree_.path(placed.node).size());
     if (!placed.visible) return;
     for (const Surface& surface : surfaces_[mesh]) {
       primitives += times * sharing_.copies * surface.mesh.triangles.size();
@@ -101,7 +105,7 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
           ErrorKind::limit);
   });
   take_memory(bytes, "the meshes of the scene with all instances");
-  objects_.reserve(objects);
+  objects_.reserve(runs);
 }
 
 void ObjectMaker::add_mesh(const PlacedNode& placed) {
@@ -115,9 +119,37 @@ void ObjectMaker::add_mesh(const PlacedNode& placed) {
   const std::vector<ObjectName> own = names(placed.node, instances != nullptr);
   if (!placed.visible) return add_hidden(placed.node, own, instances);
   if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, own, 0);
+  if (const Surface* surface = surface_of_run(placed)) return add_run(placed, *surface, own[0]);
   for (std::size_t i = 0; i < instances->size(); ++i)
     add_mesh(placed.node, placed.world_from_node * (*instances)[i], own,
              static_cast<std::uint32_t>(i));
+}
+
+const Surface* ObjectMaker::surface_of_run(const PlacedNode& placed) const {
+  const std::vector<Surface>& surfaces = surfaces_[*model_.nodes[placed.node].mesh];
+  const bool is_run = placed.visible && instances_.of(placed.node) != nullptr &&
+                      surfaces.size() == 1 && is_shared(placed.node, surfaces[0]);
+  return is_run ? surfaces.data() : nullptr;
+}
+
+void ObjectMaker::add_run(const PlacedNode& placed, const Surface& surface,
+                          const ObjectName& name) {
+  const InstanceTransforms& instances = *instances_.of(placed.node);
+  std::vector<Placement> placements;
+  placements.reserve(instances.size());
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    placements.emplace_back(placed.world_from_node * instances[i]);
+    check(*model_.nodes[placed.node].mesh, surface, is_finite(surface, placements.back()));
+  }
+  draws_something_ |= !placements.empty();
+  objects_.push_back_run({.name = name, .shape = surface.mesh, .material = surface.material},
+                         std::move(placements));
+}
+
+void ObjectMaker::check(std::size_t mesh, const Surface& surface, bool is_finite) {
+  if (is_finite) return;
+  asset_.warn(primitive(mesh, surface),
+              "has vertices that are not finite in the world; triangles with them are not drawn");
 }
 
 void ObjectMaker::add_hidden(std::size_t node, const std::vector<ObjectName>& own,
@@ -149,11 +181,7 @@ void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
       world = posed(node, surface, world_from_mesh);
       has_all = is_finite(world);
     }
-    if (!has_all) {
-      asset_.warn(primitive(index, surface),
-                  "has vertices that are not finite in the world; triangles with them are not "
-                  "drawn");
-    }
+    check(index, surface, has_all);
     draws_something_ = true;
     objects_.push_back({.name = (name++)->with_number(instance),
                         .shape = std::move(world),

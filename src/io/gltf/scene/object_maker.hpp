@@ -51,8 +51,10 @@ class ObjectMaker {
   [[nodiscard]] bool draws_something() const { return draws_something_; }
 
   /// Returns the objects, which have unique names.
-  [[nodiscard]] std::vector<Object> take() {
-    make_names_unique(objects_);
+  [[nodiscard]] Objects take() {
+    make_unique(
+        objects_.size(), [&](std::size_t i) { return objects_.name(i).str(); },
+        [&](std::size_t i, const std::string& name) { objects_[i].name = name; });
     return std::move(objects_);
   }
 
@@ -64,6 +66,12 @@ class ObjectMaker {
   /// True if the objects of a surface share its arrays.
   [[nodiscard]] bool is_shared(std::size_t node, const Surface& surface) const;
 
+  /// The surface of a node whose instances are a run, or null.
+  [[nodiscard]] const Surface* surface_of_run(const PlacedNode& placed) const;
+  /// Adds the instances of a node with this surface.
+  void add_run(const PlacedNode& placed, const Surface& surface, const ObjectName& name);
+  /// Warns if a mesh has vertices that are not finite.
+  void check(std::size_t mesh, const Surface& surface, bool is_finite);
   /// `own` are the names of the node's surfaces.
   void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::vector<ObjectName>& own,
                 std::uint32_t instance);
@@ -85,7 +93,7 @@ class ObjectMaker {
   Poser& poser_;
   Sharing sharing_;
   std::vector<std::size_t> uses_;  // number of times that each mesh is drawn
-  std::vector<Object> objects_;
+  Objects objects_;
   bool draws_something_ = false;
   std::shared_ptr<std::vector<Placement>> placements_;  // the latest block
 };
