@@ -103,8 +103,8 @@ class Shading {
   }
   [[nodiscard]] bool is_open_front(PrimitiveId id) const { return is_in(open_fronts(), id); }
 
-  /// The triangles on which is_transparent() may be true, and all for which is_blended() is, one bit
-  /// per primitive; null if there are none.
+  /// The triangles on which is_transparent() may be true, and all for which is_blended() is, one
+  /// bit per primitive; null if there are none.
   [[nodiscard]] const std::uint32_t* masked() const {
     return masked_.empty() ? nullptr : masked_.data();
   }
