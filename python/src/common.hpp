@@ -21,6 +21,10 @@ nb::object member(const char* module, const char* name);
 /// Converts a diagnostic to microtrace.errors.Diagnostic.
 nb::object to_python(const Diagnostic& diagnostic);
 
+/// Runs f() without the interpreter's lock, on a separate thread if the calling thread's stack is
+/// too small for tracing rays.
+void run_unlocked(const std::function<void()>& f);
+
 /// Runs f() without the interpreter's lock, on a separate thread while this thread handles signals.
 /// After Ctrl-C, `cancel` returns true and f() should return soon. KeyboardInterrupt is then
 /// raised.

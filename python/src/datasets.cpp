@@ -50,25 +50,27 @@ class Dataset {
 /// Reads the files of a data set. Returns the names of all files that were read.
 nb::tuple read(std::vector<std::string> words) {
   std::vector<std::string> names;
-  std::unique_ptr<Dataset> dataset = [&] {
-    const nb::gil_scoped_release release;
+  std::unique_ptr<Dataset> dataset;
+  run_unlocked([&] {
     const FloatEnvironment environment;
     const ReadFiles files;
-    auto read = std::make_unique<Dataset>(std::move(words), fs::path(), fs::path());
-    read->dataset().read_all();
+    dataset = std::make_unique<Dataset>(std::move(words), fs::path(), fs::path());
+    dataset->dataset().read_all();
     for (const auto& [name, state] : files.states()) {
       if (state != FileState{}) names.push_back(name);
     }
-    return read;
-  }();
+  });
   return nb::make_tuple(std::move(dataset), names);
 }
 
 std::vector<std::string> render(Dataset& self, const fs::path& path, std::uint32_t view) {
-  const nb::gil_scoped_release release;
-  const FloatEnvironment environment;
-  DatasetFolder folder(path);
-  return self.dataset().render(folder, view);
+  std::vector<std::string> names;
+  run_unlocked([&] {
+    const FloatEnvironment environment;
+    DatasetFolder folder(path);
+    names = self.dataset().render(folder, view);
+  });
+  return names;
 }
 
 std::vector<std::string> finish(Dataset& self, const fs::path& path) {

@@ -85,10 +85,8 @@ void bind_images(nb::module_& module) {
            [](SharedMap* self, const AnyArray& pixels) { new (self) SharedMap{make_map(pixels)}; })
       .def_prop_ro("pixels", pixels_of_map);
   module.def("load_map", [](const std::filesystem::path& path) {
-    LoadedRadianceMap loaded = [&] {
-      const nb::gil_scoped_release release;
-      return load_radiance_map(path);
-    }();
+    LoadedRadianceMap loaded;
+    run_unlocked([&] { loaded = load_radiance_map(path); });
     nb::list warnings;
     for (const Diagnostic& warning : loaded.warnings) warnings.append(to_python(warning));
     return nb::make_tuple(SharedMap{std::move(loaded.map)}, warnings);

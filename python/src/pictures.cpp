@@ -264,8 +264,9 @@ double exposure_for(const Prepared& self, const nb::object& camera, const nb::di
   const PictureOptions picture = options_of(self, arguments);
   const Camera from = camera_from_python(camera);
   const ImageSize size = size_of(arguments);
-  const nb::gil_scoped_release release;
-  return automatic_exposure(self.scene, from, size, picture.options);
+  double exposure = 0;
+  run_unlocked([&] { exposure = automatic_exposure(self.scene, from, size, picture.options); });
+  return exposure;
 }
 
 /// Fills the arrays in `outputs`. outputs["color"], if present, is (height, width, 3 or 4) float32.
@@ -370,8 +371,7 @@ void save(const Pixels<const float>& color, double exposure, const std::string& 
   film.whole = {.width = part[0], .height = part[1]};
   film.x0 = part[2];
   film.y0 = part[3];
-  const nb::gil_scoped_release release;
-  save_image(film, path);
+  run_unlocked([&] { save_image(film, path); });
 }
 
 void encode(const Pixels<const float>& color, double exposure, const std::string& tone_map,

@@ -46,9 +46,12 @@ std::string explain_ray(const Prepared& self, const AnyArray& array, const nb::o
                         const nb::object& t_max, std::size_t max_hits, std::size_t max_misses) {
   std::vector<Ray> rays;
   Rays(array, t_min, t_max, self.scene.scene().origin).get(0, 1, rays);
-  const nb::gil_scoped_release release;
-  return explanation_json(
-      explain_in_scene(self.scene, rays.front(), {.max_hits = max_hits, .max_misses = max_misses}));
+  std::string json;
+  run_unlocked([&] {
+    json = explanation_json(explain_in_scene(self.scene, rays.front(),
+                                             {.max_hits = max_hits, .max_misses = max_misses}));
+  });
+  return json;
 }
 
 /// All hits of rays. The rays are processed in pieces, so that they are not copied all at once.

@@ -46,16 +46,17 @@ std::unique_ptr<SharedFile> open(const std::filesystem::path& path, const std::s
                       .variant = std::move(variant),
                       .animation = std::move(animation),
                       .allowed_folders = std::move(allowed_folders)};
-  const nb::gil_scoped_release release;
-  return std::make_unique<SharedFile>(path, std::move(options));
+  std::unique_ptr<SharedFile> file;
+  run_unlocked([&] { file = std::make_unique<SharedFile>(path, std::move(options)); });
+  return file;
 }
 
 nb::tuple at(SharedFile& shared, std::optional<double> time) {
-  LoadedScene loaded = [&] {
-    const nb::gil_scoped_release release;
+  LoadedScene loaded;
+  run_unlocked([&] {
     const std::scoped_lock lock(shared.mutex);
-    return shared.file.at(time);
-  }();
+    loaded = shared.file.at(time);
+  });
   nb::list warnings;
   for (const Diagnostic& warning : loaded.warnings) warnings.append(to_python(warning));
   const bool is_json = loaded.format == SceneFormat::json;
@@ -72,10 +73,11 @@ void prepare(Prepared* self, const nb::object& source, const nb::object& previou
   Scene scene = scene_from_python(source);
   PrepareOptions options{.fast_build = fast_build, .threads = threads};
   if (!previous.is_none()) options.tables = nb::cast<const Prepared&>(previous).scene.tables();
-  const nb::gil_scoped_release release;
-  validate(scene);
-  new (self) Prepared{PreparedScene(std::move(scene), std::move(options)), integrator == "flat",
-                      has_background};
+  run_unlocked([&] {
+    validate(scene);
+    new (self) Prepared{PreparedScene(std::move(scene), std::move(options)), integrator == "flat",
+                        has_background};
+  });
 }
 
 }  // namespace

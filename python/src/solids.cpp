@@ -73,10 +73,8 @@ void nearest(const SolidOf& self, const Points& points, const Output<double>& po
 }
 
 nb::list open_edges(const SolidOf& self) {
-  const std::span<const OpenEdge> edges = [&] {
-    const nb::gil_scoped_release release;
-    return self.solid.open_edges();
-  }();
+  std::span<const OpenEdge> edges;
+  run_unlocked([&] { edges = self.solid.open_edges(); });
   nb::list result;
   for (const OpenEdge& edge : edges)
     result.append(nb::make_tuple(nb::make_tuple(edge.a.x, edge.a.y, edge.a.z),
@@ -98,8 +96,9 @@ void bind_solids(nb::module_& module) {
           nb::arg("scene"), nb::arg("object").none())
       .def("is_closed",
            [](const SolidOf& self) {
-             const nb::gil_scoped_release release;
-             return self.solid.is_closed();
+             bool is_closed = false;
+             run_unlocked([&] { is_closed = self.solid.is_closed(); });
+             return is_closed;
            })
       .def("open_edges", &open_edges)
       .def("locate", [](const SolidOf& self, const Points& points, const Output<std::int8_t>& sides,

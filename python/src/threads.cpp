@@ -9,7 +9,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <thread>
+#include <string>
 
 namespace microtrace::python {
 namespace {
@@ -58,6 +58,15 @@ class Call {
   Call& operator=(const Call&) = delete;
 };
 
+/// Throws Error (limit) if rays may overflow the calling thread's stack.
+void require_stack() {
+  if (free_stack() >= kStackSize) return;
+  throw Error(ErrorKind::limit, "",
+              "the stack of the calling thread has less than " + std::to_string(kStackSize >> 10U) +
+                  " KiB left, and the system refuses to start another thread; raise the limit on "
+                  "processes, or the stack size by threading.stack_size()");
+}
+
 }  // namespace
 
 void bind_threads(nb::module_& module) {
@@ -66,6 +75,21 @@ void bind_threads(nb::module_& module) {
     calls.cancel();
   });
   nb::module_::import_("atexit").attr("register")(module.attr("_cancel_all"));
+}
+
+void run_unlocked(const std::function<void()>& f) {
+  const nb::gil_scoped_release release;
+  if (free_stack() >= kStackSize) return f();
+  std::exception_ptr failure;
+  if (start_threads(1, [&] {
+        try {
+          f();
+        } catch (...) {
+          failure = std::current_exception();
+        }
+      }).empty())
+    require_stack();
+  if (failure) std::rethrow_exception(failure);
 }
 
 void run_interruptible(const std::function<void(const std::function<bool()>&)>& f) {
@@ -90,7 +114,10 @@ void run_interruptible(const std::function<void(const std::function<bool()>&)>& 
   {
     const nb::gil_scoped_release release;
     const auto threads = start_threads(1, work);
-    if (threads.empty()) work();
+    if (threads.empty()) {
+      require_stack();
+      work();
+    }
     std::unique_lock lock(mutex);
     while (!ended.wait_for(lock, kPatience, [&] { return is_done; })) {
       lock.unlock();
@@ -120,8 +147,7 @@ void for_each_block(std::size_t count, unsigned threads,
   };
   const std::size_t block_count = (count + kBlock - 1) / kBlock;
   if (block_count <= 1) {
-    const nb::gil_scoped_release release;
-    work([] { return false; });
+    run_unlocked([&] { work([] { return false; }); });
   } else {
     run_interruptible([&](const std::function<bool()>& cancel) {
       const std::size_t wanted = threads != 0 ? threads : default_threads();

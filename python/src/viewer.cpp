@@ -10,7 +10,6 @@
 #include <memory>
 #include <nanobind/stl/vector.h>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -76,7 +75,7 @@ class Viewer {
   std::string address_;
   unsigned port_;
   std::atomic<bool> is_closed_ = false;
-  std::vector<std::jthread> thread_;
+  std::vector<Thread> thread_;
 };
 
 void open_viewer(Viewer* self, const Prepared& prepared, std::string name,

@@ -5,7 +5,10 @@ from __future__ import annotations
 import copy
 import os
 import pickle
+import resource
 import signal
+import subprocess
+import sys
 import threading
 import time
 from fractions import Fraction
@@ -256,6 +259,44 @@ def test_interrupt(rng):
         for _ in range(1000):
             prepared.intersect(rays, threads=1)
     assert time.monotonic() - start < 30  # stopped before the end, typically 0.1 s after the signal
+
+
+SMALL_STACKS = """
+import sys, threading
+import microtrace as mt, numpy as np
+
+def query():
+    scene = mt.Scene()
+    scene.add_sphere((0, 0, 0), 1)
+    scene.add_mesh(np.eye(3), [[0, 1, 2]])
+    prepared = scene.prepare()
+    for count in (1, 100, 3000, 10000):
+        rays = np.random.default_rng(1).normal(size=(count, 6))
+        hits = prepared.intersect(rays)
+        assert (prepared.occluded(rays) == np.isfinite(hits.t)).all()
+        assert (prepared.count_crossings(rays) > 0).sum() == np.isfinite(hits.t).sum()
+    prepared.explain(rays[0])
+    mt.render(prepared, mt.look_at((0, 0, 9), (0, 0, 0)), (32, 32), spp=1)
+    print("done")
+
+threading.stack_size(int(sys.argv[1]))
+thread = threading.Thread(target=query)
+thread.start()
+thread.join()
+"""
+
+
+@pytest.mark.parametrize("limit", [None, 1 << 18])
+@pytest.mark.parametrize("size", [1 << 16, 1 << 18])
+def test_small_stacks(limit: int | None, size: int) -> None:
+    def set_limit() -> None:
+        if limit is not None:
+            hard = resource.getrlimit(resource.RLIMIT_STACK)[1]
+            resource.setrlimit(resource.RLIMIT_STACK, (limit, hard))
+
+    command = [sys.executable, "-c", SMALL_STACKS, str(size)]
+    run = subprocess.run(command, capture_output=True, text=True, preexec_fn=set_limit)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "done\n", "")
 
 
 def test_origins_of_scenes():

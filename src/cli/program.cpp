@@ -1,6 +1,7 @@
 #include "cli/program.hpp"
 
 #include "base/printable.hpp"
+#include "base/start_threads.hpp"
 #include "cli/arguments.hpp"
 #include "cli/compare.hpp"
 #include "cli/dataset/dataset.hpp"
@@ -53,18 +54,17 @@ bool traces_rays(cli::Command command, const cli::Arguments& arguments) {
   return command != cli::Command::merge && command != cli::Command::compare;
 }
 
-/// Throws Error (limit) if rays may overflow the stacks of the main thread and of new threads.
+/// Throws Error (limit) if rays may overflow the stack of the main thread.
 void require_stack() {
-  constexpr rlim_t kLeast = rlim_t{1} << 20U;  // the kernels for streams of rays use almost half
   rlimit stack{};
-  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kLeast) return;
-  const rlim_t better = std::min(8 * kLeast, stack.rlim_max);  // which needs no privilege
-  throw Error(
-      ErrorKind::limit, "",
-      "stacks are limited to " + std::to_string(stack.rlim_cur >> 10U) +
-          " KiB, but microtrace needs 1024 KiB; " +
-          (better < kLeast ? "the hard limit must be raised, which needs privileges"
-                           : "raise the limit, as by ulimit -s " + std::to_string(better >> 10U)));
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kStackSize) return;
+  const rlim_t better = std::min(8 * kStackSize, stack.rlim_max);  // which needs no privilege
+  throw Error(ErrorKind::limit, "",
+              "stacks are limited to " + std::to_string(stack.rlim_cur >> 10U) +
+                  " KiB, but microtrace needs 1024 KiB; " +
+                  (better < kStackSize
+                       ? "the hard limit must be raised, which needs privileges"
+                       : "raise the limit, as by ulimit -s " + std::to_string(better >> 10U)));
 }
 
 /// Applies the options that end a run early.

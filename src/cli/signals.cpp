@@ -13,7 +13,6 @@
 #include <cstring>
 #include <ctime>
 #include <sys/time.h>
-#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -134,7 +133,7 @@ void end_with_parent(std::uint32_t parent) {
   sigset_t all, former;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &former);
-  std::vector<std::jthread> watcher = start_threads(1, [is_orphan] {
+  std::vector<Thread> watcher = start_threads(1, [is_orphan] {
     while (!is_orphan()) ::usleep(kInterval);
     // No second signal: one that ended the parent may have arrived here too.
     if (record(SIGTERM) == kNotDelaying) end_at_once(SIGTERM);

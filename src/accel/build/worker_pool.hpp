@@ -1,11 +1,12 @@
 #pragma once
+#include "base/start_threads.hpp"
+
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 namespace microtrace::build {
@@ -37,7 +38,7 @@ class WorkerPool {
   std::atomic<std::size_t> next_{0};
   std::exception_ptr failure_;
   bool stop_ = false;
-  std::vector<std::jthread> threads_;
+  std::vector<Thread> threads_;
 };
 
 }  // namespace microtrace::build

@@ -11,7 +11,7 @@ bool Errands::run(std::function<void()> work) {
   forget_done();
   if (errands_.size() >= kMost) return false;
   const auto is_done = std::make_shared<std::atomic<bool>>(false);
-  std::vector<std::jthread> thread = start_threads(1, [is_done, work = std::move(work)] {
+  std::vector<Thread> thread = start_threads(1, [is_done, work = std::move(work)] {
     const FloatEnvironment environment;
     work();
     *is_done = true;

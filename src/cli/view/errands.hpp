@@ -1,11 +1,12 @@
 #pragma once
 /// Work for single requests, beside the rendering of pictures.
 
+#include "base/start_threads.hpp"
+
 #include <atomic>
 #include <functional>
 #include <list>
 #include <memory>
-#include <thread>
 #include <vector>
 
 namespace microtrace::cli {
@@ -24,7 +25,7 @@ class Errands {
 
   struct Errand {
     std::shared_ptr<std::atomic<bool>> is_done;
-    std::vector<std::jthread> thread;
+    std::vector<Thread> thread;
   };
   void forget_done();
 

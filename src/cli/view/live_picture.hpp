@@ -1,6 +1,7 @@
 #pragma once
 /// A picture on the page, which refines while the user looks at it and changes with the options.
 
+#include "base/start_threads.hpp"
 #include "cli/arguments.hpp"
 #include "cli/view/picture_job.hpp"
 #include "cli/view/scene_source.hpp"
@@ -13,7 +14,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace microtrace::cli {
@@ -95,7 +95,7 @@ class LivePicture {
   Clock::time_point last_poll_ = Clock::now();
 
   std::atomic<bool> has_stopped_ = false;
-  std::vector<std::jthread> thread_;
+  std::vector<Thread> thread_;
 };
 
 }  // namespace microtrace::cli
