@@ -5,13 +5,15 @@
 
 #include <microtrace/version.h>
 
+#include <vector>
+
 namespace {
 
 /// Makes the module's classes refuse pickling. By default, the protocols 0 and 1 would make objects
 /// that are never initialized.
 void refuse_pickling(nanobind::module_& module) {
   const auto refuse = [](nanobind::handle self, const nanobind::args& /*protocol*/) {
-    PyErr_Format(PyExc_TypeError, "cannot pickle '%s' object", Py_TYPE(self.ptr())->tp_name);
+    PyErr_Format(PyExc_TypeError, "cannot pickle '%s' object", nanobind::inst_name(self).c_str());
     throw nanobind::python_error();
   };
   const nanobind::object method =
@@ -24,7 +26,7 @@ void refuse_pickling(nanobind::module_& module) {
 
 }  // namespace
 
-NB_MODULE(_core, module) {
+NB_MODULE(unchecked_core, module) {
   using namespace microtrace::python;
   module.attr("version") = MICROTRACE_VERSION_TEXT;
   bind_errors(module);
@@ -38,4 +40,33 @@ NB_MODULE(_core, module) {
   bind_datasets(module);
   bind_viewer(module);
   refuse_pickling(module);
+}
+
+namespace {
+
+/// Fails in subinterpreters. nanobind would replace the types of the main interpreter there, and
+/// Python itself refuses the module only in subinterpreters with their own lock.
+int require_main_interpreter(PyObject* /*module*/) {
+  if (PyInterpreterState_GetID(PyInterpreterState_Get()) == 0) return 0;
+  PyErr_SetString(PyExc_ImportError,
+                  "microtrace can't be imported in a subinterpreter; import it in the main "
+                  "interpreter, or use separate processes");
+  return -1;
+}
+
+}  // namespace
+
+/// Python calls this to import the module. The steps that initialize the module follow a check,
+/// which must not be here, because from Python 3.13 on, this function runs in the main interpreter.
+extern "C" NB_EXPORT PyObject* PyInit__core() {
+  static std::vector<PyModuleDef_Slot> slots;
+  PyObject* object = PyInit_unchecked_core();
+  if (object == nullptr || !slots.empty()) return object;
+  auto* definition = reinterpret_cast<PyModuleDef*>(object);
+  slots.push_back({Py_mod_exec, reinterpret_cast<void*>(require_main_interpreter)});
+  const PyModuleDef_Slot* slot = definition->m_slots;
+  for (; slot->slot != 0; ++slot) slots.push_back(*slot);
+  slots.push_back(*slot);
+  definition->m_slots = slots.data();
+  return object;
 }
