@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,11 @@ class Error(Exception):
 
     diagnostic: Diagnostic
 
+    def __init__(self, *args: object) -> None:
+        super().__init__(*args)
+        message = super().__str__()
+        self.diagnostic = Diagnostic("", 0, 0, "", message, message)
+
 
 class SceneError(Error, ValueError):
     """A scene violates its format or its rules."""
@@ -42,7 +48,15 @@ class UnsupportedError(Error, ValueError):
 
 
 class FileError(Error, OSError):
-    """A file can't be read or written."""
+    """A file can't be read or written. `errno`, `strerror` and `filename` are None if unknown."""
+
+    def __str__(self) -> str:
+        return self.diagnostic.text
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        names = ("errno", "strerror", "filename")
+        known = {name: getattr(self, name) for name in names}
+        return (type(self), self.args, {**self.__dict__, **known})
 
 
 class MissingFileError(FileError, FileNotFoundError):
@@ -60,12 +74,16 @@ class CanceledError(Error):
 class SceneWarning(UserWarning):
     """A warning about a scene file: an oddity, an ignored feature or a repaired violation."""
 
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(diagnostic.text)
-        self.diagnostic = diagnostic
+    diagnostic: Diagnostic
 
-    def __reduce__(self) -> tuple[type[SceneWarning], tuple[Diagnostic]]:
-        return (type(self), (self.diagnostic,))
+    def __init__(self, *args: object) -> None:
+        given = args[0] if args else None
+        if isinstance(given, Diagnostic):
+            args = (given.text, *args[1:])
+        super().__init__(*args)
+        message = str(self)
+        plain = Diagnostic("", 0, 0, "", message, message)
+        self.diagnostic = given if isinstance(given, Diagnostic) else plain
 
 
 #: Maps the program's exit codes to exceptions for the same failures.
@@ -82,11 +100,23 @@ _CLASSES: dict[int, type[Error]] = {
 def error_of(code: int, diagnostic: Diagnostic) -> Error:
     """Makes the exception that corresponds to an exit code of the program."""
     kind = _CLASSES.get(code, Error)
-    if kind is FileError and os.strerror(errno.ENOENT) in diagnostic.message:
+    number = _error_number(diagnostic.message) if kind is FileError else None
+    if number == errno.ENOENT:
         kind = MissingFileError
     error = kind(diagnostic.text)
     error.diagnostic = diagnostic
+    if isinstance(error, FileError):
+        if number is not None:
+            error.errno, error.strerror = number, os.strerror(number)
+        error.filename = diagnostic.file or None
     return error
+
+
+def _error_number(message: str) -> int | None:
+    """Returns the number of the system's error whose description a message contains."""
+    text = message.lower()
+    found = [number for number in errno.errorcode if os.strerror(number).lower() in text]
+    return max(found, key=lambda number: len(os.strerror(number)), default=None)
 
 
 def warn_caller(warning: Warning) -> None:

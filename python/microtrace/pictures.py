@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
@@ -28,7 +29,7 @@ from ._arrays import (
     as_vector,
 )
 from .cameras import Camera, PerspectiveCamera, Vector, as_degrees
-from .errors import Diagnostic, SceneWarning, warn_caller
+from .errors import SceneWarning, warn_caller
 from .lights import Environment
 from .prepared import PreparedScene
 from .scene import Scene
@@ -308,8 +309,8 @@ def render(
             the shutter; other arrays show `scene` and `camera`.
         threads: number of threads; 0 means all processors. It has no effect on the arrays.
         progress: a function that is called with the finished fraction of the work, in [0, 1]. It
-            cancels the rendering by returning False. True shows a progress bar if tqdm is
-            installed.
+            cancels the rendering by returning False. The calls come from the threads that render,
+            one at a time. True shows a progress bar if tqdm is installed and sys.stderr exists.
 
     Raises:
         ValueError: an argument is invalid.
@@ -417,7 +418,7 @@ def missing_ground() -> SceneWarning:
         "no object is bounded, so the scene has no lowest point for the ground; "
         "give a height, as in ground=0"
     )
-    return SceneWarning(Diagnostic("", 0, 0, "", message, message))
+    return SceneWarning(message)
 
 
 def _exposure(
@@ -508,7 +509,7 @@ class _shown:
             raise TypeError(f"progress must be a function, True or False, not {progress!r}")
         self._function = progress if callable(progress) else None
         self._bar: Any = None
-        if progress is True:
+        if progress is True and sys.stderr is not None:  # pythonw and daemons have none
             try:
                 from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
             except ImportError:

@@ -110,6 +110,7 @@ void run_interruptible(const std::function<void(const std::function<bool()>&)>& 
     is_done = true;
     ended.notify_one();
   };
+  const bool is_late = calls.is_canceled();
   bool is_interrupted = false;
   {
     const nb::gil_scoped_release release;
@@ -132,6 +133,11 @@ void run_interruptible(const std::function<void(const std::function<bool()>&)>& 
     }
   }
   if (is_interrupted) throw nb::python_error();
+  if (failure && calls.is_canceled() && !is_late) {
+    // A daemon thread at the exit, which this exception ends without a message.
+    PyErr_SetNone(PyExc_SystemExit);
+    throw nb::python_error();
+  }
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import dataclasses
+import errno
 import gc
 import inspect
 import os
@@ -12,6 +13,7 @@ import re
 import subprocess
 import sys
 import tracemalloc
+import warnings
 
 import microtrace as mt
 import numpy as np
@@ -520,6 +522,38 @@ def test_warnings_can_be_pickled():
     diagnostic = mt.Diagnostic("a.gltf", 1, 2, "/nodes", "odd", "a.gltf:1:2: odd")
     warning = pickle.loads(pickle.dumps(mt.SceneWarning(diagnostic)))
     assert warning.diagnostic == diagnostic and str(warning) == diagnostic.text
+
+
+def test_warnings_and_errors_of_texts():
+    with pytest.warns(mt.SceneWarning, match="^odd$") as caught:
+        warnings.warn("odd", mt.SceneWarning, stacklevel=1)
+    for made in (caught[0].message, mt.SceneWarning("odd"), mt.SceneError("odd")):
+        for each in (made, pickle.loads(pickle.dumps(made))):
+            assert str(each) == "odd" and each.args == ("odd",)
+            assert each.diagnostic == mt.Diagnostic("", 0, 0, "", "odd", "odd")
+    assert str(mt.SceneWarning()) == str(mt.Error()) == ""
+    error = mt.FileError(errno.EIO, "broken", "a.glb")
+    assert str(error) == f"[Errno {errno.EIO}] broken: 'a.glb'"
+
+
+def test_file_errors_have_the_attributes_of_the_system(tmp_path):
+    picture = mt.render(mt.Scene(objects=[mt.Object(mt.Sphere())]), size=(4, 4), spp=1)
+    missing, file = str(tmp_path / "none.glb"), tmp_path / "file"
+    file.write_text("")
+    for act, number, name in (
+        (lambda: mt.load(missing), errno.ENOENT, missing),
+        (lambda: mt.load(file / "a.json"), errno.ENOTDIR, str(file / "a.json")),
+        (lambda: picture.save("/dev/full"), errno.ENOSPC, "/dev/full"),
+        (lambda: mt.load(tmp_path), errno.EISDIR, str(tmp_path)),
+        (lambda: picture.save(file / "a.exr"), errno.ENOTDIR, str(file / "a.exr")),
+    ):
+        with pytest.raises(mt.FileError) as caught:
+            act()
+        for error in (caught.value, pickle.loads(pickle.dumps(caught.value))):
+            assert error.errno == number and error.filename == name
+            assert error.strerror == (os.strerror(number))
+            assert str(error) == error.diagnostic.text
+            assert error.diagnostic.file == name
 
 
 def test_no_leaks():
