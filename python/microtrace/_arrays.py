@@ -17,7 +17,9 @@ MOST = 2**63 - 1
 
 def as_array(values: Any, what: str) -> Array:
     """Converts lists, and objects that NumPy converts. Raises ValueError for lists of unequal
-    lengths."""
+    lengths, and for masked arrays in which something is masked."""
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise ValueError(f"{what} must not have masked values; replace them, as by filled()")
     try:
         return np.asarray(values)
     except ValueError as error:
@@ -77,6 +79,8 @@ def as_indices(values: Any, what: str, width: int) -> Array:
         array = array.astype(np.uint32 if array.dtype.kind == "u" else np.int32)
     if array.dtype.kind == "i" and array.size and int(array.min()) < 0:
         raise ValueError(f"{what} must not be negative; found {int(array.min())}")
+    if array.dtype.itemsize == 8 and array.size and int(array.max()) >= 2**32:
+        raise ValueError(f"{what} must be less than 2^32; found {int(array.max())}")
     return readable(array.astype(array.dtype.newbyteorder("="), copy=False))
 
 
@@ -185,6 +189,10 @@ def as_path(value: Any, what: str) -> str:
         raise TypeError(f"{what} must be a str, bytes or os.PathLike object, not {kind}") from None
     if "\0" in path:
         raise ValueError(f"{what} must not contain null characters, is {path!r}")
+    try:
+        os.fsencode(path)
+    except UnicodeEncodeError as error:
+        raise ValueError(f"{what} can't be the name of a file, is {path!r}: {error}") from None
     return path
 
 
@@ -196,9 +204,9 @@ def as_instance(value: Any, what: str, *kinds: type) -> Any:
     return value
 
 
-def as_threads(value: Any) -> int:
+def as_threads(value: Any, what: str = "threads") -> int:
     """Returns a number of threads; 0 means all processors."""
-    return as_integer(value, "threads", 0, 65536)
+    return as_integer(value, what, 0, 1024)
 
 
 def as_vector(value: Any, what: str) -> tuple[float, float, float]:

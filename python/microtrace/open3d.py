@@ -20,6 +20,7 @@ from ._arrays import (
     as_real,
     as_reals,
     as_rows,
+    as_threads,
     as_vector,
 )
 from .prepared import PreparedScene
@@ -62,7 +63,7 @@ class RaycastingScene:
     INVALID_ID = 0xFFFFFFFF
 
     def __init__(self, nthreads: int = 0, device: Any = None) -> None:
-        self._threads = as_integer(nthreads, "nthreads", 0, 65536)
+        self._threads = as_threads(nthreads, "nthreads")
         self._scene = Scene()
         self._prepared_scene: PreparedScene | None = None
 
@@ -210,7 +211,7 @@ class RaycastingScene:
         return _rays_by_matrix(*args, **kwargs) if is_matrix else _rays_by_view(*args, **kwargs)
 
     def _count(self, nthreads: int) -> int:
-        return as_integer(nthreads, "nthreads", 0, 65536) or self._threads
+        return as_threads(nthreads, "nthreads") or self._threads
 
     def _prepared(self) -> PreparedScene:
         if self._prepared_scene is None:

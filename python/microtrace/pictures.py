@@ -283,7 +283,7 @@ def render(
             scene's integrator.
         environment: replaces the scene's environment.
         background: replaces the scene's background, also if it is the scene's environment; linear
-            Rec. 709.
+            Rec. 709, from 0 to 1.
         transparent: omits the background, also if it is the scene's environment, and adds alpha to
             the color.
         filter: the pixel filter.
@@ -359,7 +359,7 @@ def render(
         "integrator": method,
         "environment": environment,
         "hides_environment": bool(transparent) or background is not None,
-        "background": None if background is None else as_vector(background, "background"),
+        "background": None if background is None else _as_background(background),
         "filter": as_text(filter, "filter"),
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
         "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
@@ -497,6 +497,14 @@ def _checked(aovs: Iterable[str]) -> list[str]:
     if not names:
         raise ValueError("aovs must name at least one array")
     return names
+
+
+def _as_background(value: Vector) -> Vector:
+    """Returns a color that pictures can show. Raises TypeError or ValueError otherwise."""
+    color = as_vector(value, "background")
+    if min(color) < 0 or max(color) > 1:
+        raise ValueError(f"background must have numbers from 0 to 1, not {value!r}")
+    return color
 
 
 class _shown:

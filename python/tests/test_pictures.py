@@ -272,7 +272,10 @@ def test_wrong_arguments():
         ({"seed": -1}, "seed must be from 0"),
         ({"max_depth": 0}, "max_depth must be from 1"),
         ({"threads": -1}, "threads must be from 0"),
+        ({"threads": 1025}, "threads must be from 0 to 1024"),
         ({"background": (1, 2)}, "background must have 3"),
+        ({"background": (0, 0, 1.5)}, "background must have numbers from 0 to 1, not"),
+        ({"background": (-0.5, 0, 0)}, "background must have numbers from 0 to 1, not"),
         ({"environment": mt.Environment((np.nan, 0, 0))}, "/environment/content"),
         (
             {"camera": mt.PerspectiveCamera(position=(np.nan, 0, 0))},

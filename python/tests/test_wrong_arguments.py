@@ -124,6 +124,27 @@ def test_paths(function, value):
         function(value)
 
 
+@pytest.mark.parametrize("function", [mt.load, mt.SceneFile, mt.load_map])
+def test_paths_that_no_file_can_have(function):
+    with pytest.raises(ValueError, match=r"^path can't be the name of a file, is '\\ud800.glb'"):
+        function("\ud800.glb")
+
+
+def test_masked_arrays(prepared):
+    rays = np.ma.masked_array(RAYS, mask=RAYS == 9)
+    with pytest.raises(ValueError, match="^rays must not have masked values"):
+        prepared.occluded(rays)
+    with pytest.raises(ValueError, match="^vertices must not have masked values"):
+        mesh(vertices=np.ma.masked_array(np.eye(3), mask=np.eye(3) > 0))
+    assert prepared.occluded(np.ma.masked_array(RAYS)).tolist() == [True]
+
+
+def test_indices_beyond_32_bits():
+    for index, kind in ((2**32, np.int64), (2**40, np.int64), (2**63, np.uint64)):
+        with pytest.raises(ValueError, match=f"^faces must be less than 2.32; found {index}$"):
+            mesh(vertices=np.eye(3), faces=np.array([[0, 1, index]], kind))
+
+
 def test_paths_that_are_bytes(tmp_path, prepared):
     assert len(mt.load(CUBE.encode()).objects) == 3
     picture = mt.render(prepared, CAMERA, (4, 4), spp=1)
