@@ -108,7 +108,8 @@ def error_of(code: int, diagnostic: Diagnostic) -> Error:
     if isinstance(error, FileError):
         if number is not None:
             error.errno, error.strerror = number, os.strerror(number)
-        error.filename = diagnostic.file or None
+        if diagnostic.pointer == "":  # otherwise, the message is about a file that this one names
+            error.filename = diagnostic.file or None
     return error
 
 

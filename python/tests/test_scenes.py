@@ -540,10 +540,13 @@ def test_file_errors_have_the_attributes_of_the_system(tmp_path):
     picture = mt.render(mt.Scene(objects=[mt.Object(mt.Sphere())]), size=(4, 4), spp=1)
     missing, file = str(tmp_path / "none.glb"), tmp_path / "file"
     file.write_text("")
+    scene = tmp_path / "scene.json"
+    scene.write_text('{"version": 1, "objects": [{"type": "mesh", "file": "none.glb"}]}')
     for act, number, name in (
         (lambda: mt.load(missing), errno.ENOENT, missing),
         (lambda: mt.load(file / "a.json"), errno.ENOTDIR, str(file / "a.json")),
         (lambda: picture.save("/dev/full"), errno.ENOSPC, "/dev/full"),
+        (lambda: mt.load(scene), errno.ENOENT, None),
         (lambda: mt.load(tmp_path), errno.EISDIR, str(tmp_path)),
         (lambda: picture.save(file / "a.exr"), errno.ENOTDIR, str(file / "a.exr")),
     ):
@@ -553,7 +556,7 @@ def test_file_errors_have_the_attributes_of_the_system(tmp_path):
             assert error.errno == number and error.filename == name
             assert error.strerror == (os.strerror(number))
             assert str(error) == error.diagnostic.text
-            assert error.diagnostic.file == name
+            assert error.diagnostic.file == (name or str(scene))
 
 
 def test_no_leaks():

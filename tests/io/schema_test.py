@@ -15,6 +15,7 @@ BEYOND_SCHEMA = {
     "calibrated_extrinsic_mirrored": "a determinant",
     "calibrated_extrinsic_scaled": "products of members",
     "camera_name_taken": "names are unique",
+    "color_hexadecimal": "a name refers to a member elsewhere",
     "color_name_unknown": "a name refers to a member elsewhere",
     "color_name_without_table": "a name refers to a member elsewhere",
     "environment_file_missing": "a file exists",

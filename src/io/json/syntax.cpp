@@ -45,6 +45,7 @@ std::string found(std::string_view text, std::size_t offset) {
   if (offset >= text.size()) return "the end of the text";
   const char c = text[offset];
   if (c == '"') return "a string";
+  if (text.substr(offset).starts_with("\xC2\xA0")) return "a no-break space (U+00A0)";
   if (std::string_view("{}[]:,").find(c) != std::string_view::npos) return {'\'', c, '\''};
   return in_quotes(word_at(text, offset));
 }
@@ -74,6 +75,19 @@ SyntaxError explain_string(const SyntaxContext& context, std::string_view text,
   return {last, "a \\u surrogate must be part of a pair, high then low"};
 }
 
+/// Returns the JSON value that other languages write as `word`, empty if there is none.
+std::string_view meant_by(std::string_view word) {
+  if (word == "True" || word == "TRUE") return "true";
+  if (word == "False" || word == "FALSE") return "false";
+  if (word == "None" || word == "NULL" || word == "Null" || word == "nil") return "null";
+  return {};
+}
+
+/// Returns true for text that begins as JSON in UTF-16 without a byte order mark does.
+bool is_utf16(std::string_view text) {
+  return text.size() >= 2 && text.size() % 2 == 0 && (text[0] == '\0') != (text[1] == '\0');
+}
+
 SyntaxError explain_literal(std::string_view text, const SyntaxContext& context) {
   const std::string_view rest = text.substr(context.token);
   if (rest.starts_with("\xFF\xFE") || rest.starts_with("\xFE\xFF") || rest.starts_with("\xEF")) {
@@ -90,7 +104,9 @@ SyntaxError explain_literal(std::string_view text, const SyntaxContext& context)
     return explain_misplaced(text, context);
   }
   std::string message = "expected ";
-  message.append(expected(context)).append(", found ").append(in_quotes(word));
+  message.append(expected(context)).append(", found ").append(found(text, context.token));
+  if (const std::string_view meant = meant_by(word); !meant.empty())
+    message.append("; JSON has ").append(meant);
   if (word[0] == '+') message += "; JSON numbers have no plus sign";
   if (word[0] == '.') message += "; JSON numbers start with a digit";
   return {context.token, message};
@@ -108,10 +124,16 @@ SyntaxError explain_misplaced(std::string_view text, const SyntaxContext& contex
     return {context.comma, message.append("'; remove it")};
   }
   if (context.token < text.size() && c == '\0') {
+    if (context.token < 2 && is_utf16(text))
+      return {context.token, "is UTF-16, not UTF-8; save the file as UTF-8"};
     return {context.token, "a zero byte is outside of strings; this is not a JSON text"};
   }
   std::string message = "expected ";
   message.append(expected(context)).append(", found ").append(found(text, context.token));
+  const bool ends_value =
+      context.expects == Expects::comma_or_end || context.expects == Expects::end_of_document;
+  if (ends_value && c >= '0' && c <= '9' && text[context.token - 1] == '0')
+    message += "; JSON numbers don't start with 0";
   return {std::min(context.token, text.size()), message};
 }
 

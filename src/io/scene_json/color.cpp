@@ -1,5 +1,7 @@
 #include "io/scene_json/color.hpp"
 
+#include "base/printable.hpp"
+
 #include <string_view>
 #include <vector>
 
@@ -34,6 +36,9 @@ Vec3 read_color(const JsonReader& json, const Colors& colors, double most) {
   }
   const auto found = colors.find(json.string());
   if (found != colors.end()) return found->second;
+  if (json.string().starts_with('#'))
+    json.fail("must be three numbers such as [1, 0, 0] or a name from /colors, is " +
+              in_quotes(json.string()));
   std::vector<std::string_view> names;
   for (const auto& [name, color] : colors) names.push_back(name);
   if (names.empty()) json.fail("is a name, but the scene names no colors in /colors");

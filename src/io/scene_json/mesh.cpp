@@ -71,6 +71,19 @@ std::string read_mesh_file(const JsonReader& json, const std::filesystem::path& 
   }
 }
 
+/// Returns f(), and adds to its errors where the scene names the file with the mesh.
+template <class F>
+auto with_place(const JsonReader& file, const F& f) {
+  try {
+    return f();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::limit) throw;
+    Diagnostic diagnostic = error.diagnostic();
+    diagnostic.message.append(" (named by ").append(file.pointer()).append(" of the scene)");
+    throw Error(error.kind(), std::move(diagnostic));
+  }
+}
+
 }  // namespace
 
 DMat4 read_transform(const JsonReader& json) {
@@ -113,7 +126,9 @@ std::unique_ptr<MeshFiles::File> MeshFiles::open(const JsonReader& file,
   auto result = std::make_unique<File>(memory_account().budget());
   const MemoryScope scope(result->memory);
   result->bytes = read_mesh_file(file, path);
-  result->reader.emplace(result->bytes, printable(path.string()), path.parent_path(), options_);
+  with_place(file, [&] {
+    result->reader.emplace(result->bytes, printable(path.string()), path.parent_path(), options_);
+  });
   return result;
 }
 
@@ -129,7 +144,8 @@ LoadedScene MeshFiles::read(const JsonReader& json) {
     opened = open(file, path);
     opened->uses = uses;
   }
-  LoadedScene result = opened->reader->placed(options_.time, world_from_asset, opened->uses);
+  LoadedScene result = with_place(
+      file, [&] { return opened->reader->placed(options_.time, world_from_asset, opened->uses); });
   if (--uses == 0) files_.erase(file.value().string());
   return result;
 }
