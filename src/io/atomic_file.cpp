@@ -31,6 +31,21 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message);
 }
 
+/// Returns the remedy if writing or closing a file fails with this error.
+std::string_view remedy_of(int error) {
+  switch (error) {
+    case EPIPE:
+      return "the program that reads the pipe has ended";
+    case EBADF:
+      return "open that descriptor for writing";
+    case EFBIG:
+      return "raise the limit on the size of files (ulimit -f), or name a file on another file "
+             "system";
+    default:
+      return "free some space, or name another file";
+  }
+}
+
 /// Returns the open descriptor that a path names: 1 for "-", N for /dev/fd/N and /proc/self/fd/N.
 /// /dev/stdout is a link to the latter.
 std::optional<int> descriptor_number(const fs::path& path) {
@@ -140,7 +155,10 @@ void AtomicFile::open_temporary() {
   if (descriptor_ < 0) {
     const int error = errno;
     temporary_.clear();
-    fail(error, "name a file in a folder that may be written to");
+    fail(error, error == ENOSPC || error == EDQUOT
+                    ? "delete some files, because their number may be limited too, or name another "
+                      "file"
+                    : "name a file in a folder that may be written to");
   }
   // Ignores failure, because some file systems don't support permissions.
   if (mode) static_cast<void>(::fchmod(descriptor_, *mode));
@@ -153,9 +171,7 @@ void AtomicFile::write(std::string_view bytes) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
     } else if (written == 0 || errno != EINTR) {
       const int error = written == 0 ? EIO : errno;
-      fail(error, error == EPIPE   ? "the program that reads the pipe has ended"
-                  : error == EBADF ? "open that descriptor for writing"
-                                   : "free some space, or name another file");
+      fail(error, remedy_of(error));
     }
   }
 }
@@ -166,13 +182,13 @@ void AtomicFile::close() {
   descriptor_ = -1;
   // On Linux, a close() that returns EINTR has already closed the descriptor and handed over the
   // data.
-  if (closed != 0 && errno != EINTR) fail(errno, "free some space, or name another file");
+  if (closed != 0 && errno != EINTR) fail(errno, remedy_of(errno));
 }
 
 void AtomicFile::sync() {
   // Streams can't be synchronized (EINVAL, EROFS).
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS && errno != EINTR)
-    fail(errno, "free some space, or name another file");
+    fail(errno, remedy_of(errno));
 }
 
 bool AtomicFile::commit_new() {
