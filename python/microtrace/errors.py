@@ -29,7 +29,7 @@ class Error(Exception):
 
     diagnostic: Diagnostic
 
-    def __init__(self, *args: object) -> None:
+    def __init__(self, *args: Any) -> None:
         super().__init__(*args)
         message = super().__str__()
         self.diagnostic = Diagnostic("", 0, 0, "", message, message)
@@ -76,7 +76,7 @@ class SceneWarning(UserWarning):
 
     diagnostic: Diagnostic
 
-    def __init__(self, *args: object) -> None:
+    def __init__(self, *args: Any) -> None:
         given = args[0] if args else None
         if isinstance(given, Diagnostic):
             args = (given.text, *args[1:])
