@@ -122,12 +122,6 @@ bool Bvh::Impl::intersect_packet(std::span<const Ray> rays, const OpenSide& open
   return true;
 }
 
-std::optional<Hit> Bvh::Impl::intersect(const Ray& ray, const OpenSide& open) const {
-  std::optional<Hit> hit = intersect(ray);
-  while (hit && meets_open_side(primitives, open, ray, hit->id)) hit = next(ray, hit->id);
-  return hit;
-}
-
 void Bvh::Impl::intersect(std::span<const Ray> rays, std::span<const PrimitiveId> left,
                           const OpenSide& open, std::span<std::optional<Hit>> hits) const {
   assert(rays.size() == hits.size() && (left.empty() || left.size() == rays.size()));
@@ -145,7 +139,11 @@ void Bvh::Impl::intersect(std::span<const Ray> rays, std::span<const PrimitiveId
     }
     if (!is_packet) {
       done = has_tree ? unrelated_length(rays) : 1;
-      const auto ask_one = [&](std::size_t i) { hits[i] = intersect(rays[i], open); };
+      const auto ask_one = [&](std::size_t i) {
+        hits[i] = intersect(rays[i], [&](PrimitiveId id) {
+          return meets_open_side(primitives, open, rays[i], id);
+        });
+      };
       if (done >= kLeastStream) {
         if (!stream) {
           stream = std::make_unique<RayStream>(stream_target());
@@ -254,10 +252,9 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
 void intersect_fronts(const Bvh& bvh, std::span<const Ray> rays, const std::uint32_t* backs,
                       std::span<std::optional<Hit>> hits) {
   const FloatEnvironment environment;
-  // A triangle in the tree stands for all that coincide, but these may have different sides.
-  const bool knows_sides = bvh.impl_->tree.duplicates.empty();
-  bvh.impl_->intersect(rays, {}, {.triangles = knows_sides ? backs : nullptr, .is_back = true},
-                       hits);
+  const Bvh::Impl& impl = *bvh.impl_;
+  impl.intersect(rays, {}, {.triangles = impl.knows_sides() ? backs : nullptr, .is_back = true},
+                 hits);
 }
 
 void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results,

@@ -66,7 +66,16 @@ struct Bvh::Impl {
   /// Bvh::intersect.
   void intersect(std::span<const Ray> rays, std::span<const PrimitiveId> left, const OpenSide& open,
                  std::span<std::optional<Hit>> hits) const;
-  [[nodiscard]] std::optional<Hit> intersect(const Ray& ray, const OpenSide& open) const;
+  /// The first hit of a ray with a primitive for which passes(id) is false.
+  template <class Passes>
+  [[nodiscard]] std::optional<Hit> intersect(const Ray& ray, const Passes& passes) const {
+    std::optional<Hit> hit = intersect(ray);
+    while (hit && passes(hit->id)) hit = next(ray, hit->id);
+    return hit;
+  }
+  /// False if triangles coincide. One in the tree then stands for all, but they may have different
+  /// sides.
+  [[nodiscard]] bool knows_sides() const { return tree.duplicates.empty(); }
   /// Traces up to kPacketRays rays with a common origin. Returns false, without effect, if one of
   /// the rays exceeds the kernels' limits.
   [[nodiscard]] bool intersect_packet(std::span<const Ray> rays, const OpenSide& open,

@@ -53,7 +53,7 @@ void RayTracer::begin(const Bvh& bvh) {
 }
 
 bool RayTracer::knows_sides() const {
-  return queries().bvh.tree.duplicates.empty();
+  return queries().bvh.knows_sides();
 }
 
 template <class Query>
@@ -63,10 +63,10 @@ void RayTracer::trace(const RayColumns& rays, const HitFilter& filter, std::span
   const Bvh::Impl& bvh = queries().bvh;
   const auto ask_one = [&](std::size_t i) {
     const Ray ray = rays[i];
-    std::optional<Hit> hit = bvh.intersect(ray);
-    while (hit && (meets_open_side(bvh.primitives, filter.open, ray, hit->id) ||
-                   filter.masked.lets_pass(i, ray, hit->id)))
-      hit = bvh.next(ray, hit->id);
+    const std::optional<Hit> hit = bvh.intersect(ray, [&](PrimitiveId id) {
+      return meets_open_side(bvh.primitives, filter.open, ray, id) ||
+             filter.masked.lets_pass(i, ray, id);
+    });
     ids[i] = hit ? hit->id : kNoPrimitive;
   };
   if (!bvh.has_tree) {
