@@ -113,8 +113,40 @@ class Both:
         shape["bsdf"] = bsdf
         self.mitsuba[f"shape{number}"] = shape
         has_texture = emissive_png or mask_png
-        primitive = self.glb.primitive({k: v for k, v in mesh.items() if k != "uvs" or has_texture},
-                                       self.glb.add("materials", material))
+        self.add_node({k: v for k, v in mesh.items() if k != "uvs" or has_texture}, material)
+
+    def add_textured(self, mesh, maps, metallic=1.0):
+        """Adds a mesh with the textures base_color, metallic_roughness and normal of `maps` in glTF, and base_color,
+        metallic, roughness and normal in Mitsuba."""
+        number = len(self.mitsuba)
+        path = self.folder / f"{self.name}_{number}.ply"
+        files.write_ply(path, mesh)
+        base = {"baseColorTexture": self.glb.texture(maps["base_color"]), "metallicFactor": metallic,
+                "metallicRoughnessTexture": self.glb.texture(maps["metallic_roughness"])}
+        material = {"doubleSided": True, "normalTexture": self.glb.texture(maps["normal"]), "pbrMetallicRoughness": base}
+        bitmap = {name: {"type": "bitmap", "filename": str(maps[name]), "raw": name != "base_color"} for name in maps}
+        principled = {"type": "principled", "base_color": bitmap["base_color"], "roughness": bitmap["roughness"],
+                      "metallic": bitmap["metallic"] if metallic else 0.0, "eta": 1.5}
+        self.mitsuba[f"shape{number}"] = {"type": "ply", "filename": str(path), "bsdf": {"type": "twosided", "bsdf": {
+            "type": "normalmap", "normalmap": bitmap["normal"], "bsdf": principled}}}
+        self.add_node(mesh, material)
+
+    def add_coated(self, mesh, color, metallic, roughness):
+        """Adds a mesh with a clear coat."""
+        number = len(self.mitsuba)
+        path = self.folder / f"{self.name}_{number}.ply"
+        files.write_ply(path, mesh)
+        used = self.glb.document["extensionsUsed"]
+        used += {"KHR_materials_clearcoat"} - set(used)
+        material = {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": metallic, "roughnessFactor": roughness},
+                    "doubleSided": True, "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.1}}}
+        self.mitsuba[f"shape{number}"] = {"type": "ply", "filename": str(path), "bsdf": {"type": "twosided", "bsdf": {
+            "type": "principled", "base_color": {"type": "rgb", "value": list(color)}, "metallic": metallic, "roughness": roughness,
+            "clearcoat": 1.0, "clearcoat_gloss": 0.91, "eta": 1.5}}}
+        self.add_node({key: values for key, values in mesh.items() if key != "uvs"}, material)
+
+    def add_node(self, mesh, material):
+        primitive = self.glb.primitive(mesh, self.glb.add("materials", material))
         self.glb.add_node(mesh=self.glb.add("meshes", {"primitives": [primitive]}))
 
     def alpha_texture(self, gray_png):
@@ -137,8 +169,7 @@ class Both:
         used += {"KHR_materials_transmission", "KHR_materials_volume"} - set(used)
         material = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {
             "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}}}
-        primitive = self.glb.primitive({k: v for k, v in mesh.items() if k != "uvs"}, self.glb.add("materials", material))
-        self.glb.add_node(mesh=self.glb.add("meshes", {"primitives": [primitive]}))
+        self.add_node({key: values for key, values in mesh.items() if key != "uvs"}, material)
 
     def add_point(self, place, intensity):
         document = self.glb.document

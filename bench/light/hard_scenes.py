@@ -14,6 +14,14 @@ def add_lamp(scene, center, size, emission):
     scene.add(quad((x, y + 0.005, z), (size, 0, 0), (0, 0, size)), (0, 0, 0))
 
 
+def add_sky(scene):
+    """Adds a sky with a sun."""
+    mi.Bitmap(textures.sky(512).astype(np.float32)).write(str(scene.folder / "sky.exr"))
+    scene.mitsuba["sky"] = {"type": "envmap", "filename": str(scene.folder / "sky.exr"),
+                            "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], 90)}
+    scene.options = ["--env", "sky.exr"]
+
+
 def cornell(folder):
     scene = Both(folder, "cornell", depth=8)
     add_room(scene)
@@ -169,10 +177,7 @@ def leaves(folder):
         along, up = (0.25 * v / np.linalg.norm(v) for v in (along, up))
         quads.append(textured_quad(random.uniform((-3, 0.3, -1.3), (3, 2.2, 3)), along, up))
     scene.add(joined(quads), (0.2, 0.5, 0.1), mask_png=path)
-    mi.Bitmap(textures.sky(512).astype(np.float32)).write(str(folder / "sky.exr"))
-    scene.mitsuba["sky"] = {"type": "envmap", "filename": str(folder / "sky.exr"),
-                            "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], 90)}
-    scene.options = ["--env", "sky.exr"]
+    add_sky(scene)
     return scene
 
 
