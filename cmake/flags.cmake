@@ -14,6 +14,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   # hold.
   target_compile_options(microtrace_flags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(MICROTRACE_WITH_AVX OFF)
+endif()
+if(MICROTRACE_WITH_AVX)
+  target_compile_definitions(microtrace_flags INTERFACE MICROTRACE_WITH_AVX)
+endif()
 if(MICROTRACE_FUZZ)
   target_compile_options(microtrace_flags INTERFACE -fsanitize=fuzzer-no-link)
   target_link_options(microtrace_flags INTERFACE -fsanitize=fuzzer-no-link)

@@ -31,7 +31,7 @@ std::string_view name_of(InstructionSet set) {
 
 std::vector<InstructionSet> available_instruction_sets() {
   std::vector<InstructionSet> available;
-#if defined(__x86_64__)
+#if defined(MICROTRACE_WITH_AVX)
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))

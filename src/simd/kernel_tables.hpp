@@ -11,7 +11,7 @@ namespace microtrace {
 template <class Table>
 struct KernelTables {
   const Table* portable;
-  const Table* avx2;  ///< null on architectures other than x86-64, like the next member
+  const Table* avx2;  ///< null without MICROTRACE_WITH_AVX, like the next member
   const Table* avx512;
 
   [[nodiscard]] const Table* of(InstructionSet set) const {
@@ -27,9 +27,9 @@ struct KernelTables {
   [[nodiscard]] const Table& best() const { return *of(best_instruction_set()); }
 };
 
-/// Initializes KernelTables with the tables of these names, of which only the first exists on every
-/// architecture.
-#if defined(__x86_64__)
+/// Initializes KernelTables with the tables of these names, of which only the first exists without
+/// MICROTRACE_WITH_AVX.
+#if defined(MICROTRACE_WITH_AVX)
 #define MICROTRACE_KERNEL_TABLES(portable, avx2, avx512) \
   { &(portable), &(avx2), &(avx512) }
 #else
