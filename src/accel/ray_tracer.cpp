@@ -95,6 +95,15 @@ Hit RayTracer::hit(const Ray& ray, PrimitiveId id) const {
   return HitResolver(queries().bvh.primitives, ray, t_scale == 0 ? 1 : t_scale).hit(id);
 }
 
+bool RayTracer::is_first(const Ray& ray, PrimitiveId id, PrimitiveId other) const {
+  const FloatEnvironment environment;
+  const HitResolver resolver(queries().bvh.primitives, ray);
+  ClosestSoFar nearest = resolver.no_hit();
+  resolver.consider(other, nearest);
+  resolver.consider(id, nearest);
+  return nearest.id == id;
+}
+
 void RayTracer::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes, HitPointLanes& points) {
   const FloatEnvironment environment;
   // The tree holds only one triangle of each group of duplicates.

@@ -34,6 +34,8 @@ class RayTracer {
 
   /// The hit of a ray with the primitive that closest() found.
   [[nodiscard]] Hit hit(const Ray& ray, PrimitiveId id) const;
+  /// True if a ray hits primitive `id` before `other`. It must hit both.
+  [[nodiscard]] bool is_first(const Ray& ray, PrimitiveId id, PrimitiveId other) const;
 
   /// Sets the hits that rays leave, one in each lane of `points`; see FastSpawns::set_hits. There
   /// may be at most kSpawnLanes. `points` must remain valid for leave().

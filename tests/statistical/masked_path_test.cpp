@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <random>
+#include <variant>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -207,25 +208,90 @@ TEST(MaskedPaths, MultiplyTheLightThatPassesBlendedSheets) {
     scene.lights.push_back(
         {.name = "", .light = PointLight{.position = {-4, 5, 0}, .intensity = 100}});
   };
+  const auto add_lamp = [](Scene& scene) {
+    scene.environment = Environment{.content = Vec3(0)};
+    const auto material = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = Vec3(50)});
+    scene.objects.push_back(
+        {.shape = parallelogram({-4.5F, 5, -0.5F}, {1, 0, 0}, {0, 0, 1}), .material = material});
+  };
+  // A blended sheet closely behind a lamp, whose light doesn't pass it.
+  const auto add_lamp_and_sheet = [&](Scene& scene) {
+    add_lamp(scene);
+    scene.objects.push_back({.shape = parallelogram({-4.5F, 5.01F, -0.5F}, {1, 0, 0}, {0, 0, 1}),
+                             .material = static_cast<std::uint32_t>(scene.materials.size())});
+    scene.materials.push_back({.base_color = {0, 0, 0, 0.6F}, .alpha_mode = AlphaMode::blend});
+  };
   const auto light = [&](const auto& add, const std::vector<int>& opacities) {
     Scene scene = sheets_over_floor(opacities);
     add(scene);
     const Shot shot{.size = {.width = 32, .height = 32}, .samples = 16, .max_depth = 2};
     return mean_of(shoot(scene, camera, shot)).y;
   };
-  const auto check = [&](const char* name, const auto& add) {
-    const double bare = light(add, {});
+  const auto check = [&](const char* name, const auto& add, const auto& add_bare) {
+    const double bare = light(add_bare, {});
     EXPECT_GT(bare, 0.01) << name;
     for (const std::vector<int>& opacities : std::vector<std::vector<int>>{
-             {2}, {1, 3}, {3, 2, 1}, {1, 2, 1, 3}, {2, 5}, {5, 1}, {1, 0, 2}}) {
+             {}, {2}, {1, 3}, {3, 2, 1}, {1, 2, 1, 3}, {2, 5}, {5, 1}, {1, 0, 2}}) {
       double part = 1;
       for (const int opacity : opacities) part *= 1 - opacity / 5.0;
       EXPECT_NEAR(light(add, opacities) / bare, part, 1e-3)
           << name << ", " << opacities.size() << " sheets, " << part;
     }
   };
-  check("sun", add_sun);
-  check("bulb", add_bulb);
+  check("sun", add_sun, add_sun);
+  check("bulb", add_bulb, add_bulb);
+  check("lamp", add_lamp_and_sheet, add_lamp);
+}
+
+/// Blended leaves, some of which are opaque in places, under a stack of more sheets than a query
+/// passes. The leaves' texture uses one of two sets of texture coordinates, which are equal.
+Scene blended_leaves(std::uint32_t uv_set, bool double_sided, bool has_duplicates) {
+  Scene scene = leaves(Holes::blended, double_sided);
+  scene.images[0] = std::make_shared<const Image>(
+      Image{.width = 2,
+            .height = 1,
+            .channels = 4,
+            .samples = std::vector<std::uint8_t>{255, 255, 255, 255, 255, 255, 255, 90}});
+  scene.materials[1].base_color_texture->uv_set = uv_set;
+  for (int i = 0; i < 24; ++i) {
+    Mesh sheet =
+        parallelogram({-1, 3.6F + 0.02F * static_cast<float>(i), -1}, {2, 0, 0}, {0, 0, 2});
+    sheet.uv_sets.push_back({{1, 0}, {1, 0}, {1, 1}, {1, 1}});
+    scene.objects.push_back({.shape = sheet, .material = 1});
+  }
+  for (std::size_t i = 2; has_duplicates && i < 12; ++i) scene.objects.push_back(scene.objects[i]);
+  for (Object& object : scene.objects) {
+    auto& uv_sets = std::get<Mesh>(object.shape).uv_sets;
+    if (!uv_sets.empty()) uv_sets.push_back(uv_sets[0]);
+  }
+  return scene;
+}
+
+// Surfaces with only the first texture coordinates are shaded in vectors, and the wavefront passes
+// through them together. Others are shaded one by one.
+TEST(MaskedPaths, PassBlendedSurfacesTogetherAsOneByOne) {
+  const PerspectiveCamera camera{.pose = {.position = {0, 5, 4},
+                                          .direction = glm::normalize(DVec3(0, -1, -0.8)),
+                                          .up = {0, 1, 0}}};
+  for (const bool double_sided : {false, true}) {
+    for (const bool has_duplicates : {false, true}) {
+      for (const Backfaces backfaces : {Backfaces::pass, Backfaces::occlude}) {
+        for (const std::uint32_t max_depth : {1U, 2U, 6U}) {
+          const Shot shot{.size = {.width = 48, .height = 48},
+                          .samples = 4,
+                          .max_depth = max_depth,
+                          .backfaces = backfaces};
+          const auto picture = [&](std::uint32_t uv_set) {
+            return shoot(blended_leaves(uv_set, double_sided, has_duplicates), camera, shot);
+          };
+          EXPECT_EQ(differing(picture(0), picture(1)), 0)
+              << (double_sided ? "two" : "one") << " sides, duplicates " << has_duplicates
+              << ", backfaces " << static_cast<int>(backfaces) << ", depth " << max_depth;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace microtrace {
 
@@ -51,6 +52,17 @@ struct alignas(64) PathColumns {
     return {.o = vector_of(o, i), .t_min = t_min[i], .d = vector_of(d, i), .t_max = t_max[i]};
   }
   [[nodiscard]] sampling::Sobol sobol(std::size_t i) const { return {key[i], index[i]}; }
+  /// Moves the paths with these numbers, which are in ascending order, to the front.
+  void keep(std::span<const std::uint32_t> kept) {
+    const auto keep_column = [&](auto& column) {
+      for (std::size_t k = 0; k < kept.size(); ++k) column[k] = column[kept[k]];
+    };
+    const auto keep_all = [&](auto&... columns) { (keep_column(columns), ...); };
+    for (int axis = 0; axis < 3; ++axis)
+      keep_all(o[axis], d[axis], throughput[axis], from_p[axis], from_n[axis]);
+    keep_all(t_min, t_max, left, key, index, slot, pdf, media, scatterings, is_scattered, channel,
+             begin, spread);
+  }
   [[nodiscard]] LightSampleContext from(std::size_t i) const {
     return {.p = vector_of(from_p, i), .n = vector_of(from_n, i)};
   }

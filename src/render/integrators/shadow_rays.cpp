@@ -68,9 +68,13 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
     const NestedMedia* here = media.at(arrays.media[i]);
     if (hits_[i] == kNoPrimitive || hits_[i] == target) {
       if (!passes_blended) return add(arrays, i, 1);
-      // Those of a ray with a target may be behind it.
-      if (target ? passed_[i].is_empty() : passed_[i].is_complete())
-        return add(arrays, i, passed_[i].transmittance());
+      if (passed_[i].is_complete()) {
+        // The query may have found some behind the target first.
+        const auto is_before = [&](PrimitiveId id) {
+          return hits_[i] == kNoPrimitive || tracer.is_first(rays[i], id, hits_[i]);
+        };
+        return add(arrays, i, passed_[i].transmittance(is_before));
+      }
     } else {
       const bool may_be_beside = target && shading.is_same_emitter(hits_[i], *target);
       // Only media within others hide surfaces.

@@ -1,34 +1,16 @@
 #include "render/integrators/wave.hpp"
 
 #include "accel/intersect_fronts.hpp"
+#include "render/integrators/ray_timer.hpp"
 #include "render/kernels/dispatch.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 namespace microtrace {
-namespace {
-
-/// Adds the number of rays, and the time between construction and destruction, to the counts.
-class RayTimer {
- public:
-  RayTimer(RayCounts::Kind& kind, std::size_t rays) : kind_(kind) { kind.rays += rays; }
-  ~RayTimer() { kind_.seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  RayTimer(const RayTimer&) = delete;
-  RayTimer& operator=(const RayTimer&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  RayCounts::Kind& kind_;
-  Clock::time_point start_ = Clock::now();
-};
-
-}  // namespace
-
 Wave::Wave()
     : kernels_(&kShadingKernels.best()),
       paths_(std::make_unique<PathColumns>()),
@@ -105,12 +87,15 @@ void Wave::step() {
   OutgoingRays outgoing{
       .tracer = tracer_, .shadows = shadow_rays_, .media = media_, .paths = *next_paths_};
   outgoing_ = &outgoing;
-  for (std::size_t first = 0; first < count_; first += kShadingLanes) {
-    step(first);
-    vertices_.add(step_, *paths_, first, outgoing);
-  }
+  layer_ = 0;
+  do {
+    for (std::size_t first = 0; first < count_; first += kShadingLanes) {
+      step(first);
+      vertices_.add(step_, *paths_, first, outgoing);
+    }
+    escape();
+  } while (pass_blended());
   vertices_.finish(step_, outgoing);
-  escape();
   count_ = outgoing.count;
   std::fill_n(next_paths_->t_min, count_, 0.0F);
   std::fill_n(next_paths_->t_max, count_, std::numeric_limits<float>::infinity());

@@ -50,6 +50,15 @@ class Wave {
   void find_visible();
   /// Sets blockers_ for the rays that hit triangles with open backs.
   void find_blocked();
+  /// Keeps only the paths that pass through blended surfaces, and finds their next hits. Returns
+  /// false if there are none.
+  [[nodiscard]] bool pass_blended();
+  /// The hits that don't count for paths that have passed through blended surfaces.
+  [[nodiscard]] HitFilter passed() const;
+  /// True if path i has passed through this primitive.
+  [[nodiscard]] bool has_passed(std::size_t i, PrimitiveId id) const;
+  /// True if the ray of camera path i, which hits this masked primitive, certainly passes it.
+  [[nodiscard]] bool is_transparent_to_camera(std::size_t i, const Ray& ray, PrimitiveId id) const;
   /// Advances all paths by one bounce.
   void step();
   /// Advances the paths from `first` on, up to kShadingLanes, by one bounce.
@@ -68,12 +77,20 @@ class Wave {
   /// Sets the surfaces of the group's lanes with flat triangles. Leaves out those that need further
   /// tests.
   [[nodiscard]] MetSurfaces add_flat(std::size_t first);
+  /// True if path i needs no further tests where it hits this side of an opaque part of a surface
+  /// that emits nothing.
+  [[nodiscard]] bool is_simple(std::size_t i, const TexturedMaterial& look, bool is_front) const;
   /// Sets the vertices of the group's lanes whose surfaces need no further tests. Returns these
-  /// lanes, and those of paths that end at surfaces that emit nothing.
+  /// lanes, those of paths that end at surfaces that emit nothing, and those of passing_ paths.
   [[nodiscard]] Lanes add_simple(std::size_t first);
-  /// Sets what textures and vertex colors determine in these lanes. Returns the lanes that need no
-  /// further tests, which are opaque and emit nothing.
-  [[nodiscard]] Lanes add_varying(Lanes lanes);
+  struct VaryingSurfaces {
+    Lanes opaque = 0;  ///< surfaces that need no further tests, because they emit nothing
+    Lanes passed = 0;  ///< blended surfaces through which paths pass
+  };
+  /// Sets what textures and vertex colors determine in these lanes.
+  [[nodiscard]] VaryingSurfaces add_varying(std::size_t first, Lanes lanes);
+  /// Sets the alpha from which surfaces with this material stop the paths from `first` on.
+  void set_least_alpha(std::size_t first, const TexturedMaterial& look, float covering_alpha);
   /// Advances the path in a lane, which needs further tests. Returns false if the path leaves the
   /// scene.
   [[nodiscard]] bool step_slowly(std::size_t first, int lane);
@@ -89,9 +106,14 @@ class Wave {
 
   /// Sets the footprint and the texel address of a point on path i.
   void prepare(std::size_t i, ShadingPoint& point) const;
+  /// The number of the pair of random numbers that decides about coverage at this layer.
+  [[nodiscard]] std::uint32_t coverage_pair(std::uint32_t layer) const {
+    return step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs;
+  }
   /// True if the current segment of path i ends at the point. This is a random choice if the point
-  /// is partially opaque.
-  [[nodiscard]] bool stops(std::size_t i, const ShadingPoint& point, std::uint32_t layer) const;
+  /// is partially opaque. `layer` is the number of such surfaces that the path has passed, and is
+  /// incremented if it passes this one.
+  [[nodiscard]] bool stops(std::size_t i, const ShadingPoint& point, std::uint32_t& layer) const;
   /// Finds the next hit of path i behind `hit`, and sets `point` to its shading point.
   [[nodiscard]] std::optional<Hit> next(std::size_t i, const Hit& hit, ShadingPoint& point);
   /// The source of the light that arrives from behind through surfaces whose backs pass light.
@@ -101,10 +123,10 @@ class Wave {
     ShadingPoint point{};      ///< the hit's shading point
   };
   /// Looks for light from behind if path i's ray hits the front of a one-sided surface. `first`,
-  /// `point` and `layer` are the hit, its shading point and the number of its layer. The result is
-  /// empty if no light arrives.
+  /// `point` and `layer` are the hit, its shading point and the number of its layer. `is_nearest`
+  /// is true if the hit is that of hits_. The result is empty if no light arrives.
   [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
-                                   std::uint32_t layer);
+                                   std::uint32_t layer, bool is_nearest);
   /// The radiance that the surface emits toward path i. Except for camera rays, emission and
   /// coverage are looked up without a filter, as for light samples and shadow rays, because both
   /// must estimate the same light.
@@ -175,6 +197,15 @@ class Wave {
   /// The first primitive that blocks the light from behind, or kNoPrimitive. Any primitive if there
   /// are no emissive surfaces.
   std::array<PrimitiveId, kRandomBatch> blockers_;
+  /// The number of blended surfaces that the current rays have passed. Paths that pass more than
+  /// kMostPassed of them use next().
+  std::uint32_t layer_ = 0;
+  static constexpr std::uint32_t kMostPassed = 16;
+  // These surfaces, by layer and slot.
+  std::array<std::array<PrimitiveId, kRandomBatch>, kMostPassed> passed_ids_;
+  // The paths that pass through another blended surface.
+  std::array<std::uint32_t, kRandomBatch> passing_;
+  std::size_t passing_count_ = 0;
   // Working memory of find_visible() and find_blocked().
   RayArrays open_rays_;
   PathFloats open_t_min_;

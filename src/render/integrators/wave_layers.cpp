@@ -1,7 +1,12 @@
 /// What the paths of a wavefront meet behind surfaces that let them or light through.
 
+#include "render/integrators/ray_timer.hpp"
 #include "render/integrators/wave.hpp"
 #include "render/media/medium_event.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
 
 namespace microtrace {
 
@@ -21,9 +26,7 @@ MaskedTriangles Wave::masked() const {
 void Wave::find_visible() {
   const auto passes = [](const void* self, std::size_t k, const Ray& ray, PrimitiveId id) {
     const auto& wave = *static_cast<const Wave*>(self);
-    const std::size_t i = wave.open_paths_[k];
-    return wave.shading_->is_transparent_to_camera(
-        ray, id, {.begin = wave.paths_->begin[i], .spread = wave.paths_->spread[i]});
+    return wave.is_transparent_to_camera(wave.open_paths_[k], ray, id);
   };
   std::size_t count = 0, widened = 0;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -77,13 +80,76 @@ void Wave::find_blocked() {
   for (std::size_t k = 0; k < count; ++k) blockers_[open_paths_[k]] = open_blockers_[k];
 }
 
-bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t layer) const {
+bool Wave::has_passed(std::size_t i, PrimitiveId id) const {
+  const std::uint32_t slot = paths_->slot[i];
+  return std::any_of(passed_ids_.begin(), passed_ids_.begin() + layer_,
+                     [&](const auto& ids) { return ids[slot] == id; });
+}
+
+bool Wave::is_transparent_to_camera(std::size_t i, const Ray& ray, PrimitiveId id) const {
+  return shading_->is_transparent_to_camera(
+      ray, id, {.begin = paths_->begin[i], .spread = paths_->spread[i]});
+}
+
+HitFilter Wave::passed() const {
+  const auto known = [](const void* self, std::size_t i, PrimitiveId id, const HitWeights& at) {
+    const auto& wave = *static_cast<const Wave*>(self);
+    if (wave.has_passed(i, id)) return Visible::no;
+    return wave.step_.depth == 1 ? Visible::unsure : wave.shading_->known_visible(id, at);
+  };
+  const auto passes = [](const void* self, std::size_t i, const Ray& ray, PrimitiveId id) {
+    const auto& wave = *static_cast<const Wave*>(self);
+    return wave.has_passed(i, id) ||
+           (wave.step_.depth == 1 ? wave.is_transparent_to_camera(i, ray, id)
+                                  : wave.shading_->is_transparent(ray, id));
+  };
+  return {.masked = {
+              .triangles = shading_->masked(), .context = this, .known = known, .passes = passes}};
+}
+
+bool Wave::pass_blended() {
+  if (passing_count_ == 0) return false;
+  count_ = std::exchange(passing_count_, 0);
+  ++layer_;
+  paths_->keep(std::span(passing_).first(count_));
+  const RayTimer timer(counts_.path, count_);
+  const auto hits = std::span(hits_).first(count_);
+  RayColumns rays = columns_of(*paths_, count_);
+  if (step_.depth > 1) {
+    tracer_.closest(rays, passed(), hits);
+    if (knows_blocked()) find_blocked();
+    return true;
+  }
+  rays.t_min = paths_->t_min;
+  std::fill_n(paths_->left, count_, kNoPrimitive);
+  tracer_.closest(rays, passed(), hits);
+  for (std::size_t i = 0; i < count_; ++i) {
+    camera_hits_[i].reset();
+    if (hits[i] != kNoPrimitive) camera_hits_[i] = tracer_.hit(paths_->ray(i), hits[i]);
+  }
+  return true;
+}
+
+void Wave::set_least_alpha(std::size_t first, const TexturedMaterial& look, float covering_alpha) {
+  if (look.material->alpha_mode != AlphaMode::blend) {
+    std::ranges::fill(textured_.least_alpha, covering_alpha);
+    return;
+  }
+  kernels_->random_numbers(paths_->key + first, paths_->index + first, coverage_pair(layer_),
+                           textured_.least_alpha);
+  // stops() is true for alphas greater than the random number, so the next number is the least one.
+  for (float& u : textured_.least_alpha)
+    u = std::bit_cast<float>(std::bit_cast<std::uint32_t>(u) + 1);
+}
+
+bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t& layer) const {
   const bool from_camera = paths_->pdf[i] == 0;
   if (!from_camera && point.look->is_opaque) return true;
   const float coverage = shading_->coverage(from_camera ? point : point.unfiltered(), from_camera);
   if (coverage == 0 || coverage == 1) return coverage == 1;
-  return paths_->sobol(i).one(step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs) <
-         coverage;
+  if (paths_->sobol(i).one(coverage_pair(layer)) < coverage) return true;
+  ++layer;
+  return false;
 }
 
 std::optional<Hit> Wave::next(std::size_t i, const Hit& hit, ShadingPoint& point) {
@@ -97,17 +163,17 @@ std::optional<Hit> Wave::next(std::size_t i, const Hit& hit, ShadingPoint& point
 }
 
 Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint point,
-                               std::uint32_t layer) {
+                               std::uint32_t layer, bool is_nearest) {
   const auto is_sky_lit = [&] {
     return lighting_->environment(unit<1>(vector_of(paths_->d, i))) != Vec3(0);
   };
-  if (layer == 0 && point.look->has_open_back && knows_blocked() && blockers_[i] == kNoPrimitive)
+  if (is_nearest && point.look->has_open_back && knows_blocked() && blockers_[i] == kNoPrimitive)
     return {.is_open = is_sky_lit()};
   std::optional<Hit> hit = first;
   while (Shading::lets_light_in(point)) {
+    ++layer;
     do {
       hit = next(i, *hit, point);
-      ++layer;
       if (!hit) return {.is_open = is_sky_lit()};
     } while (!stops(i, point, layer));
   }

@@ -93,11 +93,16 @@ Wave::MetSurfaces Wave::add_flat(std::size_t first) {
   return {.simple = lanes & ~last, .ended = step_.depth > 1 ? lanes & last : 0};
 }
 
+bool Wave::is_simple(std::size_t i, const TexturedMaterial& look, bool is_front) const {
+  if (!look.is_simple || paths_->media[i] != 0) return false;
+  if (!is_front) return look.has_back;
+  return !looks_behind() || !look.has_open_back || !may_get_light(i);
+}
+
 Lanes Wave::add_simple(std::size_t first) {
   VertexGroup& group = vertices_.group();
   const PathColumns& paths = *paths_;
   const HitLanes& hits = group.hits.lanes;
-  const bool looks_behind = this->looks_behind();
   for (int lane = 0; lane < kShadingLanes; ++lane) {
     const std::size_t i = first + static_cast<std::size_t>(lane);
     group.width[lane] = paths.begin[i] + paths.spread[i] * hits.distance[lane];
@@ -107,21 +112,18 @@ Lanes Wave::add_simple(std::size_t first) {
   }
   auto [simple, ended] = add_flat(first);
   group.plain = simple;
-  Lanes varying = 0;
+  Lanes varying = 0, last = 0;
   for (Lanes rest = group.hits.sure & ~group.hits.flat; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto k = static_cast<std::size_t>(lane);
     const TexturedMaterial& look = *group.hits.looks[k];
-    const bool is_front = hits.from_behind[lane] == 0;
-    if (!look.is_simple ||
-        (is_front ? looks_behind && look.has_open_back && may_get_light(first + k)
-                  : !look.has_back) ||
-        paths.media[first + k] != 0)
-      continue;
+    if (!is_simple(first + k, look, hits.from_behind[lane] == 0)) continue;
     const Lanes bit = Lanes{1} << lane;
     if (is_last(first + k)) {
-      if (step_.depth > 1 && look.is_opaque && !look.is_emissive()) ended |= bit;
-      continue;
+      if (step_.depth == 1) continue;
+      if (look.is_opaque && !look.is_emissive()) ended |= bit;
+      if (look.is_opaque || !look.varies) continue;
+      last |= bit;
     }
     simple |= bit;
     const BsdfInput& input = *look.constant_but_textures;
@@ -143,16 +145,29 @@ Lanes Wave::add_simple(std::size_t first) {
     put_surface(group.surface, lane, input.parameters);
     if (!is_plain) put_extensions(group.surface, lane, input.parameters, input.layers);
   }
-  if (varying != 0) simple = (simple & ~varying) | add_varying(varying);
+  Lanes passed = 0;
+  if (varying != 0) {
+    const VaryingSurfaces surfaces = add_varying(first, varying);
+    passed = surfaces.passed;
+    simple = (simple & ~varying) | surfaces.opaque;
+  }
+  for (Lanes rest = passed; rest != 0; rest &= rest - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
+    const std::uint32_t i = static_cast<std::uint32_t>(first) + lane;
+    passed_ids_[layer_][paths.slot[i]] = group.id[lane];
+    passing_[passing_count_++] = i;
+  }
+  ended |= simple & last;
+  simple &= ~last;
   if (step_.depth == 1) {
     for (Lanes rest = simple; rest != 0; rest &= rest - 1)
       alphas_[paths.slot[first + static_cast<std::size_t>(std::countr_zero(rest))]] = 1;
   }
   group.vertices = simple;
-  return simple | ended;
+  return simple | ended | passed;
 }
 
-Lanes Wave::add_varying(Lanes lanes) {
+Wave::VaryingSurfaces Wave::add_varying(std::size_t first, Lanes lanes) {
   VertexGroup& group = vertices_.group();
   const HitGroup& hits = group.hits;
   for (LaneFloats& channel : textured_.color) std::ranges::fill(channel, 1.0F);
@@ -163,7 +178,7 @@ Lanes Wave::add_varying(Lanes lanes) {
     const Vec4 color = vertex_color(hits.meshes[k], hits.corners[k], got(hits.lanes.weights, lane));
     for (int channel = 0; channel < 4; ++channel) textured_.color[channel][lane] = color[channel];
   }
-  Lanes opaque = 0;
+  VaryingSurfaces result;
   for (Lanes rest = lanes; rest != 0;) {
     const TexturedMaterial& look = *hits.looks[static_cast<std::size_t>(std::countr_zero(rest))];
     Lanes same = 0;
@@ -171,9 +186,13 @@ Lanes Wave::add_varying(Lanes lanes) {
     same &= rest;
     rest &= ~same;
     const auto& [from_camera, from_others] = *look.kernel_surfaces;
-    kernels_->load_textured(step_.depth == 1 ? from_camera : from_others, same, hits.lanes,
-                            group.width, textured_, group.surface, group.normals);
-    opaque |= textured_.opaque;
+    const TexturedSurface& surface = step_.depth == 1 ? from_camera : from_others;
+    set_least_alpha(first, look, surface.covering_alpha);
+    kernels_->load_textured(surface, same, hits.lanes, group.width, textured_, group.surface,
+                            group.normals);
+    result.opaque |= textured_.opaque;
+    if (look.material->alpha_mode == AlphaMode::blend && layer_ < kMostPassed)
+      result.passed |= same & ~textured_.covers;
     if (look[MaterialTexture::normal].map == nullptr) continue;
     for (Lanes mapped = textured_.opaque; mapped != 0; mapped &= mapped - 1) {
       const int lane = std::countr_zero(mapped);
@@ -182,7 +201,7 @@ Lanes Wave::add_varying(Lanes lanes) {
       put_tangents(group, lane, hits.meshes[k], hits.corners[k]);
     }
   }
-  return opaque;
+  return result;
 }
 
 void Wave::prepare(std::size_t i, ShadingPoint& point) const {
@@ -203,15 +222,18 @@ bool Wave::step_slowly(std::size_t first, int lane) {
                                        : tracer_.hit(ray, hits_[i]);
   ShadingPoint point = shading_->point(hits, lane, ray, *hit);
   prepare(i, point);
-  std::uint32_t layer = 0;
+  std::uint32_t layer = layer_;
+  bool is_nearest = true;
   left_bodies_.clear();
-  for (; hit && (passes_hidden_surface(i, point) || !stops(i, point, layer)); ++layer)
+  while (hit && (passes_hidden_surface(i, point) || !stops(i, point, layer))) {
     hit = next(i, *hit, point);
+    is_nearest = false;
+  }
   if (paths.media[i] != 0 && !cross_medium(i, ray, hit, point.at.distance)) return true;
   if (!hit) return false;
   if (looks_behind() && Shading::lets_light_in(point) &&
-      (layer > 0 || !point.look->has_open_back || may_get_light(i))) {
-    const Behind behind = look_behind(i, *hit, point, layer);
+      (!is_nearest || !point.look->has_open_back || may_get_light(i))) {
+    const Behind behind = look_behind(i, *hit, point, layer, is_nearest);
     const NestedMedia* media = media_.at(paths.media[i]);
     // No light arrives from infinitely far away through a medium that scatters.
     if (behind.is_open) return media != nullptr && media->medium->scatters();

@@ -41,12 +41,14 @@ class PassedTriangles {
     *at = id;
     *factor = 1 - coverage;
   }
-  [[nodiscard]] bool is_empty() const { return count_ == 0; }
   [[nodiscard]] bool is_complete() const { return count_ <= kMost; }
-  /// The fraction of light that passes all triangles, which must be complete.
-  [[nodiscard]] float transmittance() const {
+  /// The fraction of light that passes all triangles for which counts(id) is true. The triangles
+  /// must be complete.
+  template <class Counts>
+  [[nodiscard]] float transmittance(const Counts& counts) const {
     float product = 1;
-    for (std::uint32_t i = 0; i < count_; ++i) product *= factors_[i];
+    for (std::uint32_t i = 0; i < count_; ++i)
+      if (counts(ids_[i])) product *= factors_[i];
     return product;
   }
 

@@ -105,14 +105,14 @@ void read_textures(const TexturedSurface& surface, Lanes lanes, const HitLanes& 
   }
 }
 
-/// Sets the parts of the surfaces in these lanes that textures change, and to.opaque.
+/// Sets the parts of the surfaces in these lanes that textures change, to.covers and to.opaque.
 template <int N>
 void load_textured(const TexturedSurface& surface, Lanes lanes, const HitLanes& hits,
                    const LaneFloats& widths, TexturedLanes& to, SurfaceLanes& surfaces,
                    NormalMapLanes& normals) {
   using F = Float<N>;
   read_textures<N>(surface, lanes, hits, widths, to);
-  to.opaque = 0;
+  to.covers = to.opaque = 0;
   for_each_part<N>(lanes, [&](int i, Lanes part) {
     const auto value = [&](TexelValue which, int channel) {
       return load<N>(to.values[static_cast<int>(which)][channel] + i);
@@ -140,7 +140,9 @@ void load_textured(const TexturedSurface& surface, Lanes lanes, const HitLanes& 
       dark &= less_equal<N>(emission, F{}) & less_equal<N>(F{}, emission);
     }
     const F alpha = factor(3) * value(TexelValue::alpha, 3);
-    to.opaque |= (part & dark & less_equal<N>(all<N>(surface.covering_alpha), alpha)) << i;
+    const Lanes covers = part & less_equal<N>(load<N>(to.least_alpha + i), alpha);
+    to.covers |= covers << i;
+    to.opaque |= (covers & dark) << i;
   });
 }
 

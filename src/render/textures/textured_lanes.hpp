@@ -27,10 +27,12 @@ struct TexturedSurface {
 };
 
 struct alignas(64) TexturedLanes {
-  LaneFloats color[4];  ///< vertex colors
+  LaneFloats color[4];     ///< vertex colors
+  LaneFloats least_alpha;  ///< the alpha from which the surface is not passed
   // The kernel sets the members below.
   LaneFloats values[TexturedSurface::kValues][4];  ///< 1 for textures that a material lacks
-  std::uint32_t opaque;  ///< set of lanes whose surface is opaque and doesn't emit light
+  std::uint32_t covers;  ///< set of lanes whose alpha is at least least_alpha
+  std::uint32_t opaque;  ///< set of these lanes whose surface doesn't emit light
 };
 
 }  // namespace microtrace

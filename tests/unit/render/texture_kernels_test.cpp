@@ -137,9 +137,6 @@ TEST_P(TextureKernelsTest, TexelsHaveTheBitsOfSingleLookups) {
           .texels = use.texture.map().texels(), .layout = surface.layout_count++, .value = value};
     }
     const float kind = random.number();
-    surface.covering_alpha = kind < 0.3F   ? -std::numeric_limits<float>::infinity()
-                             : kind < 0.4F ? 2
-                                           : random.number();
     surface.normal_scale = random.number();
     for (float& x : surface.base_color) x = 2 * random.number();
     const auto lit = static_cast<glm::length_t>(random.bits() % 3);
@@ -152,6 +149,9 @@ TEST_P(TextureKernelsTest, TexelsHaveTheBitsOfSingleLookups) {
       widths[i] = std::exp2(20 * random.signed_unit());
       hits.uv_scale[i] = std::exp2(3 * random.signed_unit());
       for (auto& channel : textured.color) channel[i] = random.number();
+      textured.least_alpha[i] = kind < 0.3F   ? -std::numeric_limits<float>::infinity()
+                                : kind < 0.4F ? 2
+                                              : random.number();
     }
     SurfaceLanes surfaces{};
     NormalMapLanes normals{};
@@ -162,7 +162,7 @@ TEST_P(TextureKernelsTest, TexelsHaveTheBitsOfSingleLookups) {
         EXPECT_EQ(surfaces.roughness[i], 0);
         EXPECT_EQ(normals.scale[i], 0);
         EXPECT_EQ(textured.values[0][0][i], 0);
-        EXPECT_EQ(textured.opaque >> i & 1U, 0);
+        EXPECT_EQ((textured.covers | textured.opaque) >> i & 1U, 0);
         continue;
       }
       Vec4 values[TexturedSurface::kValues];
@@ -183,7 +183,8 @@ TEST_P(TextureKernelsTest, TexelsHaveTheBitsOfSingleLookups) {
       expect_bits(surfaces.roughness[i], base.roughness, "roughness");
       expect_bits(normals.scale[i], surface.normal_scale, "normal scale");
       const bool is_dark = surface.emission[lit] == 0 || value(TexelValue::emission)[lit] == 0;
-      const bool covers = factor.w * value(TexelValue::alpha).w >= surface.covering_alpha;
+      const bool covers = factor.w * value(TexelValue::alpha).w >= textured.least_alpha[i];
+      EXPECT_EQ(textured.covers >> i & 1U, covers ? 1U : 0U) << round << ", " << i;
       EXPECT_EQ(textured.opaque >> i & 1U, is_dark && covers ? 1U : 0U) << round << ", " << i;
     }
   }
