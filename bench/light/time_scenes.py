@@ -27,7 +27,7 @@ def main():
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--size", default="320x240")
     parser.add_argument("scenes", nargs="*", metavar="SCENE")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     folder = options.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     program = str(pathlib.Path(options.program).resolve())
