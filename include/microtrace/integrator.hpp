@@ -102,7 +102,7 @@ class MICROTRACE_EXPORT Integrator {
 
   /// Returns the sample that trace() would return for every ray in the frustum, if it is certain
   /// that all are equal and this can be found without tracing each ray. Called for rectangles of
-  /// the film before their rays are made, but not for Monte Carlo integrators.
+  /// the film before their rays are made.
   [[nodiscard]] virtual std::optional<Sample> common_sample(const World& /*world*/,
                                                             const Frustum& /*frustum*/) const {
     return std::nullopt;

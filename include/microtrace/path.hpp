@@ -64,6 +64,8 @@ class MICROTRACE_EXPORT PathIntegrator final : public Integrator {
   [[nodiscard]] const PathOptions& options() const { return options_; }
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;
+  [[nodiscard]] std::optional<Sample> common_sample(const World& world,
+                                                    const Frustum& frustum) const override;
   [[nodiscard]] bool is_random() const override { return true; }
   [[nodiscard]] RayCounts ray_counts() const override;
   [[nodiscard]] Display display(const Film& /*film*/) const override {

@@ -2,6 +2,7 @@
 #include <microtrace/integrator.hpp>
 #include <microtrace/ray.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -45,11 +46,20 @@ class RayBatch {
         if (!(rays_[i].t_max >= 0)) samples_[i] = no_ray_;
       }
     }
+    return take_results();
+  }
+  /// Does the same without rays for samples that are known to be equal.
+  [[nodiscard]] Results fill(const Sample& sample) {
+    std::fill_n(samples_.begin(), count_, sample);
+    return take_results();
+  }
+
+ private:
+  [[nodiscard]] Results take_results() {
     const std::size_t count = std::exchange(count_, 0);
     return {.pixels = std::span(pixels_).first(count), .samples = std::span(samples_).first(count)};
   }
 
- private:
   const Integrator& integrator_;
   Sample no_ray_;
   bool is_data_;

@@ -15,6 +15,7 @@ from pathlib import Path
 from program import PROGRAM, ProgramTest
 
 SCENES = Path(sys.argv[2]).resolve() / "scenes/gltf"
+QUAD = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
 LIT = ["--integrator", "path", "--size", "48x36", "--spp", "2", "--seed", "5"]
 
 
@@ -74,6 +75,21 @@ def multiplied(path, seed):
     return glb(asset, buffer)
 
 
+def backs_before_blended_quads():
+    """Two coincident nodes of a mesh: the back of a one-sided quad, and behind it a two-sided quad with alpha."""
+    corners = [struct.pack("<12f", *(x for i in order for x in (*QUAD[i], z))) for order, z in (((0, 3, 2, 1), 1), ((0, 1, 2, 3), 0))]
+    indices = struct.pack("<6H", 0, 1, 2, 0, 2, 3)
+    buffer = b"".join(corners) + indices
+    views = [{"buffer": 0, "byteOffset": 48 * i, "byteLength": 48 if i < 2 else 12} for i in range(3)]
+    accessors = [{"bufferView": i, "componentType": 5126, "type": "VEC3", "count": 4, "min": [-1, -1, 1 - i], "max": [1, 1, 1 - i]}
+                 for i in range(2)] + [{"bufferView": 2, "componentType": 5123, "type": "SCALAR", "count": 6}]
+    return glb({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": i}, "indices": 2, "material": i} for i in range(2)]}],
+        "materials": [{}, {"alphaMode": "BLEND", "doubleSided": True, "pbrMetallicRoughness": {"baseColorFactor": [1, 0.2, 0.1, 0.5]}}],
+        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(buffer)}]}, buffer)
+
+
 class Instances(ProgramTest):
     def draw(self, how, *arguments, scene="scene.glb"):
         """The outputs of one run, and its counted memory in MiB."""
@@ -100,6 +116,13 @@ class Instances(ProgramTest):
                               ("materials.glb", ["--guiding", "--env", "studio", "--threads", "2"]),
                               ("textured.glb", ["--bsdf", "spec", "--ground"])):
             self.assert_same(name, *LIT, *options)
+
+    # Copies have duplicate triangles, so queries don't pass through backs. Instances don't.
+    def test_backs_before_blended_surfaces(self):
+        (self.folder / "scene.glb").write_bytes(backs_before_blended_quads())
+        copies, instances = (self.draw(how, *LIT, "--view", "0,0")[0] for how in ("copy", "share"))
+        self.assertEqual(instances, copies)
+        self.assertGreater(len(set(instances[0])), 9)  # the quads are in the picture
 
     def test_without_light(self):
         for name in ("textures.glb", "textured.glb", "knot.glb"):

@@ -1,5 +1,4 @@
-// Compares paths through surfaces with transparent parts with paths through surfaces that lack
-// these parts.
+// Tests paths through surfaces with transparent and blended parts.
 
 #include "support/pictures.hpp"
 
@@ -260,7 +259,11 @@ Scene blended_leaves(std::uint32_t uv_set, bool double_sided, bool has_duplicate
     sheet.uv_sets.push_back({{1, 0}, {1, 0}, {1, 1}, {1, 1}});
     scene.objects.push_back({.shape = sheet, .material = 1});
   }
-  for (std::size_t i = 2; has_duplicates && i < 12; ++i) scene.objects.push_back(scene.objects[i]);
+  // Before the leaves, a one-sided surface whose back the camera doesn't see.
+  scene.objects.push_back(
+      {.shape = parallelogram({-2, 3.2F, 1}, {4, 0, 0}, {0, 0, 3}), .material = 3});
+  scene.materials.push_back({.double_sided = false});
+  for (std::size_t i = 2; has_duplicates && i < 9; ++i) scene.objects.push_back(scene.objects[i]);
   for (Object& object : scene.objects) {
     auto& uv_sets = std::get<Mesh>(object.shape).uv_sets;
     if (!uv_sets.empty()) uv_sets.push_back(uv_sets[0]);
@@ -268,8 +271,7 @@ Scene blended_leaves(std::uint32_t uv_set, bool double_sided, bool has_duplicate
   return scene;
 }
 
-// Surfaces with only the first texture coordinates are shaded in vectors, and the wavefront passes
-// through them together. Others are shaded one by one.
+// Surfaces are shaded in vectors only if all texture coordinates are the first ones.
 TEST(MaskedPaths, PassBlendedSurfacesTogetherAsOneByOne) {
   const PerspectiveCamera camera{.pose = {.position = {0, 5, 4},
                                           .direction = glm::normalize(DVec3(0, -1, -0.8)),

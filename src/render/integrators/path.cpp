@@ -62,6 +62,17 @@ void PathIntegrator::trace(const World& world, std::span<const Ray> rays,
   waves_->give(std::move(wave));
 }
 
+std::optional<Sample> PathIntegrator::common_sample(const World& world,
+                                                    const Frustum& frustum) const {
+  const Lighting& lighting = *world.lighting;
+  const bool is_seen = lighting.has_environment() && lighting.is_seen();
+  if (options_.ground || (is_seen && !lighting.has_uniform_environment())) return std::nullopt;
+  const CommonHit hit = world.bvh.common_hit(frustum);
+  if (!hit.is_known || hit.id) return std::nullopt;
+  if (!is_seen) return Sample{};
+  return Sample{.color = lighting.environment(Vec3(0, 0, 1)), .alpha = 1};
+}
+
 RayCounts PathIntegrator::ray_counts() const {
   return waves_->counts();
 }

@@ -23,6 +23,10 @@ MaskedTriangles Wave::masked() const {
               }};
 }
 
+OpenSide Wave::hidden_backs() const {
+  return {.triangles = tracer_.knows_sides() ? world_->hidden_backs : nullptr, .is_back = true};
+}
+
 void Wave::find_visible() {
   const auto passes = [](const void* self, std::size_t k, const Ray& ray, PrimitiveId id) {
     const auto& wave = *static_cast<const Wave*>(self);
@@ -48,9 +52,8 @@ void Wave::find_visible() {
   RayColumns rays = columns_of(open_rays_, count);
   rays.t_min = open_t_min_;
   const auto visible = std::span(open_blockers_).first(count);
-  tracer_.closest(rays,
-                  {.masked = {.triangles = shading_->masked(), .context = this, .passes = passes}},
-                  visible);
+  const MaskedTriangles masked{.triangles = shading_->masked(), .context = this, .passes = passes};
+  tracer_.closest(rays, {.open = hidden_backs(), .masked = masked}, visible);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = open_paths_[k];
     hits_[i] = visible[k];
@@ -103,7 +106,8 @@ HitFilter Wave::passed() const {
            (wave.step_.depth == 1 ? wave.is_transparent_to_camera(i, ray, id)
                                   : wave.shading_->is_transparent(ray, id));
   };
-  return {.masked = {
+  return {.open = step_.depth == 1 ? hidden_backs() : OpenSide{},
+          .masked = {
               .triangles = shading_->masked(), .context = this, .known = known, .passes = passes}};
 }
 

@@ -60,6 +60,10 @@ class Lighting {
     return environment_ ? environment_->radiance(wi) : Vec3(0);
   }
   [[nodiscard]] bool has_environment() const { return environment_ != nullptr; }
+  /// True if the environment's radiance is the same from everywhere.
+  [[nodiscard]] bool has_uniform_environment() const {
+    return environment_ && environment_->is_uniform();
+  }
   /// Rays that leave the scene.
   struct Escapes {
     MapLanes<kShadingLanes> lights{};         ///< d holds the directions, of any length

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 
 namespace microtrace {
@@ -67,9 +68,14 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
   const TilePixels all(tile, world_.seed, slice_);
   Batch batch(integrator_, has_alpha_);
   PixelAdder adder(kernels_, background_, sums, all.places());
+  const std::optional<Sample> common = common_sample(tile);
   const auto trace = [&] {
-    make_rays(batch);
-    adder.add(batch.trace(world_));
+    if (common) {
+      adder.add(batch.fill(*common));
+    } else {
+      make_rays(batch);
+      adder.add(batch.trace(world_));
+    }
   };
   // Consecutive rays are up to 16 samples of one pixel, then of its neighbor, so that they form
   // narrow packets. Each pixel has one sample in the slice among `slice_.count` samples.
@@ -90,6 +96,14 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
   trace();
   samples_ += adder.samples();
   invalid_ += adder.invalid();
+}
+
+std::optional<Sample> RandomPainter::common_sample(const PixelRect& tile) const {
+  if (ray_.has_lens()) return std::nullopt;
+  const PixelOffset least = filter_(0, 0), greatest = filter_(1, 1);
+  const std::optional<Frustum> frustum = ray_.frustum(
+      tile.x0 + least.x, tile.y0 + least.y, tile.x1 - 1 + greatest.x, tile.y1 - 1 + greatest.y);
+  return frustum ? integrator_.common_sample(world_, *frustum) : std::nullopt;
 }
 
 void RandomPainter::make_rays(Batch& batch) const {

@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace microtrace {
@@ -38,6 +39,8 @@ class RandomPainter {
   class TilePixels;
   using Batch = RayBatch<kRandomBatch>;
 
+  /// Returns the sample that all rays through the tile's pixels have, if that is known.
+  [[nodiscard]] std::optional<Sample> common_sample(const PixelRect& tile) const;
   /// Makes the rays of the batch's samples.
   void make_rays(Batch& batch) const;
 
