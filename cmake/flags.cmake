@@ -9,6 +9,10 @@ target_compile_options(microtrace_flags INTERFACE
   # These options don't change results. Without them, compilers must add branches to square roots
   # and can't vectorize conditional expressions.
   -fno-math-errno -fno-trapping-math)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # With this optimization, GCC 12.2 for AArch64 removes stores in set_beams() at -O3, and packets of rays miss triangles.
+  target_compile_options(microtrace_flags INTERFACE -fno-predictive-commoning)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # Disables GCC's false warnings on "text" + std::string (GCC bug 105651), and on the members that a std::variant doesn't
   # hold.
