@@ -28,7 +28,7 @@ class ShortVector {
   ShortVector(const ShortVector& other)
       : ShortVector(other.size(), [&](std::size_t i) -> const T& { return other[i]; }) {}
   ShortVector(ShortVector&& other) noexcept : list_(std::exchange(other.list_, nullptr)) {}
-  ShortVector& operator=(const ShortVector& other) {
+  ShortVector& operator=(const ShortVector& other) {  // NOLINT(bugprone-unhandled-self-assignment)
     *this = ShortVector(other);
     return *this;
   }

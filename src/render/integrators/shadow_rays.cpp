@@ -37,7 +37,7 @@ void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLan
   Lanes aimed = 0;
   // Two loops, because compilers vectorize only the first one.
   for (int lane = 0; lane < kShadingLanes; ++lane) {
-    const float end = from.samples.target[lane] != kNoTarget ? kBehindTarget : 1;
+    const float end = from.samples.target[lane] != kNoTarget ? kBehindTarget : 1.0F;
     t_max_[lane] = from.samples.is_far[lane] != 0 ? kInfinity : end;
   }
   for (int lane = 0; lane < kShadingLanes; ++lane)

@@ -13,22 +13,22 @@
 namespace microtrace {
 namespace {
 
-constexpr auto all = [](PrimitiveId) { return true; };
+constexpr auto any_triangle = [](PrimitiveId) { return true; };
 
 // A triangle with references in several leaves of the tree is met several times.
 TEST(PassedTriangles, CountEachTriangleOnce) {
   PassedTriangles passed;
   passed.add(3, 0.25F);
   passed.add(3, 0.25F);
-  EXPECT_EQ(passed.transmittance(all), 0.75F);
+  EXPECT_EQ(passed.transmittance(any_triangle), 0.75F);
   passed.add(5, 0.5F);
   passed.add(3, 0.25F);
   passed.add(5, 0.5F);
-  EXPECT_EQ(passed.transmittance(all), 0.375F);
+  EXPECT_EQ(passed.transmittance(any_triangle), 0.375F);
   EXPECT_TRUE(passed.is_complete());
   EXPECT_EQ(passed.transmittance([](PrimitiveId id) { return id == 5; }), 0.5F);
   passed.clear();
-  EXPECT_EQ(passed.transmittance(all), 1);
+  EXPECT_EQ(passed.transmittance(any_triangle), 1);
 }
 
 TEST(PassedTriangles, HaveTheSameProductInEachOrder) {
@@ -45,7 +45,7 @@ TEST(PassedTriangles, HaveTheSameProductInEachOrder) {
     PassedTriangles passed;
     for (const auto& [id, coverage] : triangles) passed.add(id, coverage);
     ASSERT_TRUE(passed.is_complete());
-    ASSERT_EQ(passed.transmittance(all), product);
+    ASSERT_EQ(passed.transmittance(any_triangle), product);
   }
 }
 
