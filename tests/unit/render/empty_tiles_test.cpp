@@ -16,7 +16,7 @@
 namespace microtrace {
 namespace {
 
-constexpr ImageSize kSize{.width = 93, .height = 70};
+constexpr ImageSize kTiledSize{.width = 93, .height = 70};
 
 /// Traces each ray as PathIntegrator does.
 class TracingIntegrator final : public Integrator {
@@ -55,7 +55,7 @@ struct Picture {
     options.threads = 1;
     options.integrator = &integrator;
     options.samples = 5;
-    const Film film = render(scene, camera, kSize, options);
+    const Film film = render(scene, camera, kTiledSize, options);
     pixels = pixels_of(film);
     for (std::uint32_t y = 0; film.has_alpha() && y < film.size().height; ++y)
       alphas.insert(alphas.end(), film.alpha_row(y).begin(), film.alpha_row(y).end());
