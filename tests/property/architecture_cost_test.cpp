@@ -70,7 +70,7 @@ TEST(StageCounts, RaysInSmallScenesRarelyReachTheFilters) {
     auto small = scene;
     small.mesh.triangles.resize(triangles);
     const auto [stages, questions] = draw(small, small.views[0], 1);
-    ASSERT_GT(questions, 10'000U);
+    ASSERT_GT(questions, 3'000U);  // tiles without hits have none
     EXPECT_LE(stages.filters * 5, questions);
   }
 }
