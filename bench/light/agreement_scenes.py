@@ -82,10 +82,7 @@ class Both:
     def add(self, mesh, color=(0.5, 0.5, 0.5), emission=0.0, conductor=None, emissive_png=None, mask_png=None):
         """Adds a mesh. `conductor` is the roughness of a conductor that reflects all light; without it, the surface is
         diffuse. `emissive_png` is a texture of the emission, and `mask_png` a gray texture: black parts are missing."""
-        number = len(self.mitsuba)
-        path = self.folder / f"{self.name}_{number}.ply"
-        files.write_ply(path, mesh)
-        shape = {"type": "ply", "filename": str(path)}
+        shape = self.add_shape(mesh)
         base = {"baseColorFactor": [*map(float, color), 1], "metallicFactor": 0}
         material = {"doubleSided": True, "pbrMetallicRoughness": base}
         if conductor is None:
@@ -111,41 +108,42 @@ class Both:
                 light = emission * np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
                 shape["emitter"]["radiance"] = {"type": "bitmap", "bitmap": mi.Bitmap(light.astype(np.float32)), "raw": True}
         shape["bsdf"] = bsdf
-        self.mitsuba[f"shape{number}"] = shape
         has_texture = emissive_png or mask_png
         self.add_node({k: v for k, v in mesh.items() if k != "uvs" or has_texture}, material)
 
     def add_textured(self, mesh, maps, metallic=1.0):
         """Adds a mesh with the textures base_color, metallic_roughness and normal of `maps` in glTF, and base_color,
         metallic, roughness and normal in Mitsuba."""
-        number = len(self.mitsuba)
-        path = self.folder / f"{self.name}_{number}.ply"
-        files.write_ply(path, mesh)
         base = {"baseColorTexture": self.glb.texture(maps["base_color"]), "metallicFactor": metallic,
                 "metallicRoughnessTexture": self.glb.texture(maps["metallic_roughness"])}
         material = {"doubleSided": True, "normalTexture": self.glb.texture(maps["normal"]), "pbrMetallicRoughness": base}
         bitmap = {name: {"type": "bitmap", "filename": str(maps[name]), "raw": name != "base_color"} for name in maps}
         principled = {"type": "principled", "base_color": bitmap["base_color"], "roughness": bitmap["roughness"],
                       "metallic": bitmap["metallic"] if metallic else 0.0, "eta": 1.5}
-        self.mitsuba[f"shape{number}"] = {"type": "ply", "filename": str(path), "bsdf": {"type": "twosided", "bsdf": {
-            "type": "normalmap", "normalmap": bitmap["normal"], "bsdf": principled}}}
+        self.add_shape(mesh)["bsdf"] = {"type": "twosided", "bsdf": {
+            "type": "normalmap", "normalmap": bitmap["normal"], "bsdf": principled}}
         self.add_node(mesh, material)
 
     def add_coated(self, mesh, color, metallic, roughness):
         """Adds a mesh with a clear coat."""
-        number = len(self.mitsuba)
-        path = self.folder / f"{self.name}_{number}.ply"
-        files.write_ply(path, mesh)
         used = self.glb.document["extensionsUsed"]
         used += {"KHR_materials_clearcoat"} - set(used)
         material = {"pbrMetallicRoughness": {"baseColorFactor": [*color, 1], "metallicFactor": metallic, "roughnessFactor": roughness},
                     "doubleSided": True, "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.1}}}
-        self.mitsuba[f"shape{number}"] = {"type": "ply", "filename": str(path), "bsdf": {"type": "twosided", "bsdf": {
+        self.add_shape(mesh)["bsdf"] = {"type": "twosided", "bsdf": {
             "type": "principled", "base_color": {"type": "rgb", "value": list(color)}, "metallic": metallic, "roughness": roughness,
-            "clearcoat": 1.0, "clearcoat_gloss": 0.91, "eta": 1.5}}}
+            "clearcoat": 1.0, "clearcoat_gloss": 0.91, "eta": 1.5}}
         self.add_node({key: values for key, values in mesh.items() if key != "uvs"}, material)
 
+    def add_shape(self, mesh):
+        """Adds a mesh for Mitsuba. Returns its shape, without a material."""
+        number = len(self.mitsuba)
+        path = self.folder / f"{self.name}_{number}.ply"
+        files.write_ply(path, mesh)
+        return self.mitsuba.setdefault(f"shape{number}", {"type": "ply", "filename": str(path)})
+
     def add_node(self, mesh, material):
+        """Adds a mesh for microtrace."""
         primitive = self.glb.primitive(mesh, self.glb.add("materials", material))
         self.glb.add_node(mesh=self.glb.add("meshes", {"primitives": [primitive]}))
 
@@ -161,10 +159,7 @@ class Both:
 
     def add_glass(self, mesh):
         """Adds a closed mesh of smooth clear glass."""
-        number = len(self.mitsuba)
-        path = self.folder / f"{self.name}_{number}.ply"
-        files.write_ply(path, mesh)
-        self.mitsuba[f"shape{number}"] = {"type": "ply", "filename": str(path), "bsdf": {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}}
+        self.add_shape(mesh)["bsdf"] = {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}
         used = self.glb.document["extensionsUsed"]
         used += {"KHR_materials_transmission", "KHR_materials_volume"} - set(used)
         material = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {

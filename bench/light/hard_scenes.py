@@ -22,6 +22,21 @@ def add_sky(scene):
     scene.options = ["--env", "sky.exr"]
 
 
+def random_edges(random, length):
+    """Returns the edges of a square with a random orientation."""
+    along, up = random.normal(size=(2, 3))
+    up -= along * (along @ up) / (along @ along)
+    return [length * v / np.linalg.norm(v) for v in (along, up)]
+
+
+def write_leaf(folder):
+    """Writes a mask with the outline of a leaf. Returns its path."""
+    y, x = np.mgrid[0:64, 0:64] / 31.5 - 1
+    path = folder / "leaf.png"
+    files.write_png(path, ((np.abs(x) < 0.6 * np.cos(np.pi / 2 * y)) * 255).astype(np.uint8))
+    return path
+
+
 def cornell(folder):
     scene = Both(folder, "cornell", depth=8)
     add_room(scene)
@@ -83,9 +98,7 @@ def thousand(folder):
     random = np.random.default_rng(2)
     lamps = []
     for _ in range(1000):
-        along, up = random.normal(size=(2, 3))
-        up -= along * (along @ up) / (along @ along)
-        along, up = (0.01 * v / np.linalg.norm(v) for v in (along, up))
+        along, up = random_edges(random, 0.01)
         lamps.append(quad(random.uniform(-0.95, 0.95, 3), along, up))
     scene.add(joined(lamps), (0, 0, 0), emission=100.0)
     return scene
@@ -166,15 +179,11 @@ def leaves(folder):
     scene = Both(folder, "leaves", depth=8)
     scene.add(quad((-9, -1, 9), (18, 0, 0), (0, 0, -18)), (0.4, 0.35, 0.3))
     scene.add(quad((-9, -1, -1.5), (18, 0, 0), (0, 4, 0)), (0.7, 0.7, 0.7))
-    y, x = np.mgrid[0:64, 0:64] / 31.5 - 1
-    path = folder / "leaf.png"
-    files.write_png(path, ((np.abs(x) < 0.6 * np.cos(np.pi / 2 * y)) * 255).astype(np.uint8))
+    path = write_leaf(folder)
     random = np.random.default_rng(4)
     quads = []
     for _ in range(1500):
-        along, up = random.normal(size=(2, 3))
-        up -= along * (along @ up) / (along @ along)
-        along, up = (0.25 * v / np.linalg.norm(v) for v in (along, up))
+        along, up = random_edges(random, 0.25)
         quads.append(textured_quad(random.uniform((-3, 0.3, -1.3), (3, 2.2, 3)), along, up))
     scene.add(joined(quads), (0.2, 0.5, 0.1), mask_png=path)
     add_sky(scene)

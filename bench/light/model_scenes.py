@@ -5,7 +5,7 @@ import numpy as np
 import files
 import textures
 from agreement_scenes import Both, ball, joined, quad, textured_quad
-from hard_scenes import add_sky
+from hard_scenes import add_sky, random_edges, write_leaf
 from helmet import patch
 
 
@@ -47,18 +47,13 @@ def atrium(folder):
     places = [(x, z) for x in (-1, 1) for z in np.linspace(-2.4, 2.4, 11)]
     scene.add_textured(joined([column(x, z) for x, z in places]), stone, metallic=0)
     scene.add_textured(joined([curtain(1.2 * x, z + 0.24) for x, z in places if (z > -2) or x > 0][:13]), cloth)
-    path = folder / "leaf.png"
-    y, x = np.mgrid[0:64, 0:64] / 31.5 - 1
-    files.write_png(path, ((np.abs(x) < 0.6 * np.cos(np.pi / 2 * y)) * 255).astype(np.uint8))
     random = np.random.default_rng(5)
     plants = []
     for px, pz in [(x * 0.75, z) for x, z in places[::2]]:
         for _ in range(60):
-            along, up = random.normal(size=(2, 3))
-            up -= along * (along @ up) / (along @ along)
-            along, up = (0.12 * v / np.linalg.norm(v) for v in (along, up))
+            along, up = random_edges(random, 0.12)
             plants.append(textured_quad((px, -0.8, pz) + random.uniform(-0.15, 0.15, 3), along, up))
-    scene.add(joined(plants), (0.2, 0.5, 0.1), mask_png=path)
+    scene.add(joined(plants), (0.2, 0.5, 0.1), mask_png=write_leaf(folder))
     add_sky(scene)
     return scene
 
