@@ -252,9 +252,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
 void intersect_fronts(const Bvh& bvh, std::span<const Ray> rays, const std::uint32_t* backs,
                       std::span<std::optional<Hit>> hits) {
   const FloatEnvironment environment;
-  const Bvh::Impl& impl = *bvh.impl_;
-  impl.intersect(rays, {}, {.triangles = impl.knows_sides() ? backs : nullptr, .is_back = true},
-                 hits);
+  bvh.impl_->intersect(rays, {}, bvh.impl_->open_backs(backs), hits);
 }
 
 void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results,

@@ -76,6 +76,10 @@ struct Bvh::Impl {
   /// False if triangles coincide. One in the tree then stands for all, but they may have different
   /// sides.
   [[nodiscard]] bool knows_sides() const { return tree.duplicates.empty(); }
+  /// The backs of these triangles, or of none if sides aren't known.
+  [[nodiscard]] OpenSide open_backs(const std::uint32_t* triangles) const {
+    return {.triangles = knows_sides() ? triangles : nullptr, .is_back = true};
+  }
   /// Traces up to kPacketRays rays with a common origin. Returns false, without effect, if one of
   /// the rays exceeds the kernels' limits.
   [[nodiscard]] bool intersect_packet(std::span<const Ray> rays, const OpenSide& open,

@@ -56,6 +56,10 @@ bool RayTracer::knows_sides() const {
   return queries().bvh.knows_sides();
 }
 
+OpenSide RayTracer::open_backs(const std::uint32_t* backs) const {
+  return queries().bvh.open_backs(backs);
+}
+
 template <class Query>
 void RayTracer::trace(const RayColumns& rays, const HitFilter& filter, std::span<PrimitiveId> ids,
                       const Query& query) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The camera rays of pictures.
 
+#include "render/samples/sample_pattern.hpp"
 #include "render/sampling/warps.hpp"
 
 #include <microtrace/camera.hpp>
@@ -39,9 +40,13 @@ class CameraRays {
     camera_.through(x, y, t_min_, rays);
   }
 
-  /// The rays through the pixel coordinates [x0, x1] x [y0, y1], as in RayGenerator.
-  [[nodiscard]] std::optional<Frustum> frustum(double x0, double y0, double x1, double y1) const {
-    std::optional<Frustum> result = camera_.frustum(x0, y0, x1, y1);
+  /// The rays through these pixels from the offset `least` to `greatest` of each, as in
+  /// RayGenerator. They don't pass through a lens.
+  [[nodiscard]] std::optional<Frustum> frustum(const PixelRect& pixels, const PixelOffset& least,
+                                               const PixelOffset& greatest) const {
+    std::optional<Frustum> result =
+        camera_.frustum(pixels.x0 + least.x, pixels.y0 + least.y, pixels.x1 - 1 + greatest.x,
+                        pixels.y1 - 1 + greatest.y);
     if (result) result->greatest_t_min = std::max(result->greatest_t_min, double{t_min_});
     return result;
   }

@@ -63,9 +63,7 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
 }
 
 std::optional<Sample> TilePainter::common_sample(const PixelRect& block) const {
-  const std::optional<Frustum> frustum =
-      ray_.frustum(block.x0 + least_.x, block.y0 + least_.y, block.x1 - 1 + greatest_.x,
-                   block.y1 - 1 + greatest_.y);
+  const std::optional<Frustum> frustum = ray_.frustum(block, least_, greatest_);
   return frustum ? integrator_.common_sample(world_, *frustum) : std::nullopt;
 }
 

@@ -46,8 +46,8 @@ class Wave {
   void intersect(std::span<const Ray> camera_rays);
   /// The triangles that rays other than camera rays pass through in places.
   [[nodiscard]] MaskedTriangles masked() const;
-  /// The sides of surfaces that camera rays pass, as intersect_fronts() does.
-  [[nodiscard]] OpenSide hidden_backs() const;
+  /// Sets the hit of camera path i, which may be kNoPrimitive.
+  void set_camera_hit(std::size_t i, PrimitiveId id);
   /// Replaces hits of camera rays at transparent points by the next visible hits.
   void find_visible();
   /// Sets blockers_ for the rays that hit triangles with open backs.

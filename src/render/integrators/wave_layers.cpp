@@ -23,8 +23,10 @@ MaskedTriangles Wave::masked() const {
               }};
 }
 
-OpenSide Wave::hidden_backs() const {
-  return {.triangles = tracer_.knows_sides() ? world_->hidden_backs : nullptr, .is_back = true};
+void Wave::set_camera_hit(std::size_t i, PrimitiveId id) {
+  hits_[i] = id;
+  camera_hits_[i].reset();
+  if (id != kNoPrimitive) camera_hits_[i] = tracer_.hit(paths_->ray(i), id);
 }
 
 void Wave::find_visible() {
@@ -53,13 +55,9 @@ void Wave::find_visible() {
   rays.t_min = open_t_min_;
   const auto visible = std::span(open_blockers_).first(count);
   const MaskedTriangles masked{.triangles = shading_->masked(), .context = this, .passes = passes};
-  tracer_.closest(rays, {.open = hidden_backs(), .masked = masked}, visible);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = open_paths_[k];
-    hits_[i] = visible[k];
-    camera_hits_[i].reset();
-    if (visible[k] != kNoPrimitive) camera_hits_[i] = tracer_.hit(paths_->ray(i), visible[k]);
-  }
+  tracer_.closest(rays, {.open = tracer_.open_backs(world_->hidden_backs), .masked = masked},
+                  visible);
+  for (std::size_t k = 0; k < count; ++k) set_camera_hit(open_paths_[k], visible[k]);
 }
 
 void Wave::find_blocked() {
@@ -106,7 +104,7 @@ HitFilter Wave::passed() const {
            (wave.step_.depth == 1 ? wave.is_transparent_to_camera(i, ray, id)
                                   : wave.shading_->is_transparent(ray, id));
   };
-  return {.open = step_.depth == 1 ? hidden_backs() : OpenSide{},
+  return {.open = step_.depth == 1 ? tracer_.open_backs(world_->hidden_backs) : OpenSide{},
           .masked = {
               .triangles = shading_->masked(), .context = this, .known = known, .passes = passes}};
 }
@@ -117,19 +115,17 @@ bool Wave::pass_blended() {
   ++layer_;
   paths_->keep(std::span(passing_).first(count_));
   const RayTimer timer(counts_.path, count_);
-  const auto hits = std::span(hits_).first(count_);
+  const bool from_camera = step_.depth == 1;
   RayColumns rays = columns_of(*paths_, count_);
-  if (step_.depth > 1) {
-    tracer_.closest(rays, passed(), hits);
-    if (knows_blocked()) find_blocked();
-    return true;
+  if (from_camera) {
+    rays.t_min = paths_->t_min;
+    std::fill_n(paths_->left, count_, kNoPrimitive);
   }
-  rays.t_min = paths_->t_min;
-  std::fill_n(paths_->left, count_, kNoPrimitive);
-  tracer_.closest(rays, passed(), hits);
-  for (std::size_t i = 0; i < count_; ++i) {
-    camera_hits_[i].reset();
-    if (hits[i] != kNoPrimitive) camera_hits_[i] = tracer_.hit(paths_->ray(i), hits[i]);
+  tracer_.closest(rays, passed(), std::span(hits_).first(count_));
+  if (from_camera) {
+    for (std::size_t i = 0; i < count_; ++i) set_camera_hit(i, hits_[i]);
+  } else if (knows_blocked()) {
+    find_blocked();
   }
   return true;
 }

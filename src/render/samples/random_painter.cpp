@@ -100,9 +100,7 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
 
 std::optional<Sample> RandomPainter::common_sample(const PixelRect& tile) const {
   if (ray_.has_lens()) return std::nullopt;
-  const PixelOffset least = filter_(0, 0), greatest = filter_(1, 1);
-  const std::optional<Frustum> frustum = ray_.frustum(
-      tile.x0 + least.x, tile.y0 + least.y, tile.x1 - 1 + greatest.x, tile.y1 - 1 + greatest.y);
+  const std::optional<Frustum> frustum = ray_.frustum(tile, filter_(0, 0), filter_(1, 1));
   return frustum ? integrator_.common_sample(world_, *frustum) : std::nullopt;
 }
 
