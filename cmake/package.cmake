@@ -9,5 +9,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 # dpkg-shlibdeps adds the libraries of the program and its modules to the dependencies. The package suggests the headers that
 # users of the library need.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, libtinygltf-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS libglm-dev)
 include(CPack)

@@ -40,8 +40,8 @@ class Film {
   explicit Film(ImageSize size, Alpha alpha = Alpha::none)
       : whole(size),
         size_(size),
-        pixels_(std::size_t{size.width} * size.height, Vec3(0)),
-        alpha_(alpha == Alpha::none ? 0 : pixels_.size(), 0.0F) {}
+        pixels_(zeros<Vec3>(std::size_t{size.width} * size.height)),
+        alpha_(zeros<float>(alpha == Alpha::none ? 0 : pixels_.size())) {}
 
   [[nodiscard]] ImageSize size() const { return size_; }
   [[nodiscard]] Vec3& at(std::uint32_t x, std::uint32_t y) { return pixels_[index(x, y)]; }

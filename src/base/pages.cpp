@@ -47,6 +47,14 @@ void release_pages(void* p, std::size_t bytes) noexcept {
 #endif
 }
 
+bool are_zero_pages([[maybe_unused]] std::size_t bytes) noexcept {
+#ifdef __linux__
+  return bytes >= kHugePage;  // the kernel clears mapped pages
+#else
+  return false;
+#endif
+}
+
 void* map_pages(std::size_t bytes) {
 #ifdef __linux__
   void* const p =

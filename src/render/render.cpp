@@ -121,8 +121,10 @@ class ExactChannels {
   ExactChannels(const ExactChannels&) = delete;
   ExactChannels& operator=(const ExactChannels&) = delete;
 
-  void paint(const PixelRect& tile) const {
-    if (painter_) painter_->paint(tile);
+  /// Paints a part of the window that consists of whole tiles.
+  void paint(const PixelRect& part) const {
+    if (!painter_) return;
+    for (std::size_t i = 0; i < tile_count(part); ++i) painter_->paint(tile_at(i, part));
   }
 
  private:
@@ -131,6 +133,13 @@ class ExactChannels {
   std::optional<AovPainter> painter_;
 };
 
+/// The side of the squares that each thread paints at a time. Large ones often have one color.
+/// There must be enough of them to balance the load.
+std::uint32_t part_edge(const PixelRect& window, unsigned threads) {
+  constexpr std::uint32_t kLarge = 4 * kTileEdge;
+  return tile_count(window, kLarge) >= std::size_t{16} * threads ? kLarge : kTileEdge;
+}
+
 /// Renders the film, which has the pixels of the window, by an integrator that is not random.
 void draw_tiles(const SceneView& view, const Integrator& integrator, const RenderOptions& options,
                 const PixelRect& window, Threads& threads, Film& film,
@@ -138,11 +147,11 @@ void draw_tiles(const SceneView& view, const Integrator& integrator, const Rende
   World world = view.unlit_world(options.samples);
   world.seed = options.seed;
   const TilePainter colors(world, integrator, options, window, film);
-  const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {
-    colors.paint(tile);
-    channels.paint(tile);
+  const auto draw = [&](const PixelRect& part, const auto& poll) {
+    colors.paint(part, poll);
+    channels.paint(part);
   };
-  for_each_tile(window, threads, draw, options.progress);
+  for_each_tile(window, threads, draw, options.progress, part_edge(window, threads.wanted));
   if (options.counts == nullptr) return;
   const ImageSize part = window.size();
   *options.counts = {.samples = std::uint64_t{part.width} * part.height * options.samples,

@@ -62,8 +62,8 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
   }
 }
 
-std::optional<Sample> TilePainter::common_sample(const PixelRect& block) const {
-  const std::optional<Frustum> frustum = ray_.frustum(block, least_, greatest_);
+std::optional<Sample> TilePainter::common_sample(const PixelRect& part) const {
+  const std::optional<Frustum> frustum = ray_.frustum(part, least_, greatest_);
   return frustum ? integrator_.common_sample(world_, *frustum) : std::nullopt;
 }
 
@@ -109,13 +109,16 @@ void TilePainter::paint_block(const PixelRect& block) const {
   });
 }
 
-void TilePainter::paint(const PixelRect& tile) const {
-  if (const std::optional<Sample> sample = common_sample(tile)) {
-    for (std::uint32_t y = tile.y0; y < tile.y1; ++y)
-      set_pixels(film_, tile.x0 - window_.x0, y - window_.y0, tile.x1 - tile.x0, sample->color,
-                 sample->alpha, background_);
-    return;
-  }
+bool TilePainter::fill(const PixelRect& part) const {
+  const std::optional<Sample> sample = common_sample(part);
+  if (!sample) return false;
+  for (std::uint32_t y = part.y0; y < part.y1; ++y)
+    set_pixels(film_, part.x0 - window_.x0, y - window_.y0, part.x1 - part.x0, sample->color,
+               sample->alpha, background_);
+  return true;
+}
+
+void TilePainter::trace(const PixelRect& tile) const {
   for (std::uint32_t y = tile.y0; y < tile.y1; y += block_height_) {
     for (std::uint32_t x = tile.x0; x < tile.x1; x += block_width_) {
       paint_block({.x0 = x,
@@ -123,6 +126,17 @@ void TilePainter::paint(const PixelRect& tile) const {
                    .x1 = std::min(x + block_width_, tile.x1),
                    .y1 = std::min(y + block_height_, tile.y1)});
     }
+  }
+}
+
+void TilePainter::paint(const PixelRect& part, const std::function<void()>& poll) const {
+  if (fill(part)) return;
+  const std::size_t count = tile_count(part);
+  for (std::size_t i = 0; i < count; ++i) {
+    const PixelRect tile = tile_at(i, part);
+    if (count > 1 && fill(tile)) continue;
+    trace(tile);
+    if (pattern_.size() > 1) poll();
   }
 }
 

@@ -22,37 +22,39 @@ struct Ended {};
 /// The time after which a thread reports its progress.
 constexpr std::chrono::milliseconds kPatience{20};
 
-/// The number of tiles after which a thread looks at the clock. Tiles that take long do so
+/// The number of pixels after which a thread looks at the clock. Tiles that take long do so
 /// themselves.
-constexpr std::uint64_t kTilesPerLook = 8;
+constexpr std::uint64_t kPixelsPerLook = 8 * kTilePixels;
 
-std::size_t tiles_across(std::uint32_t pixels) {
-  return (std::size_t{pixels} + kTileEdge - 1) / kTileEdge;
+std::size_t tiles_across(std::uint32_t pixels, std::uint32_t edge) {
+  return (std::size_t{pixels} + edge - 1) / edge;
 }
 
 }  // namespace
 
-std::size_t tile_columns(const PixelRect& window) {
-  return tiles_across(window.size().width);
+std::size_t tile_columns(const PixelRect& window, std::uint32_t edge) {
+  return tiles_across(window.size().width, edge);
 }
 
-std::size_t tile_count(const PixelRect& window) {
-  return tile_columns(window) * tiles_across(window.size().height);
+std::size_t tile_count(const PixelRect& window, std::uint32_t edge) {
+  return tile_columns(window, edge) * tiles_across(window.size().height, edge);
 }
 
-PixelRect tile_at(std::size_t index, const PixelRect& window) {
-  const std::size_t columns = tile_columns(window);
-  const auto x0 = window.x0 + static_cast<std::uint32_t>(index % columns * kTileEdge);
-  const auto y0 = window.y0 + static_cast<std::uint32_t>(index / columns * kTileEdge);
+PixelRect tile_at(std::size_t index, const PixelRect& window, std::uint32_t edge) {
+  const std::size_t columns = tile_columns(window, edge);
+  const auto x0 = window.x0 + static_cast<std::uint32_t>(index % columns * edge);
+  const auto y0 = window.y0 + static_cast<std::uint32_t>(index / columns * edge);
   return {.x0 = x0,
           .y0 = y0,
-          .x1 = std::min(x0 + kTileEdge, window.x1),
-          .y1 = std::min(y0 + kTileEdge, window.y1)};
+          .x1 = std::min(x0 + edge, window.x1),
+          .y1 = std::min(y0 + edge, window.y1)};
 }
 
 void for_each_tile(const PixelRect& window, Threads& threads, const DrawTile& draw,
-                   const std::function<bool(double)>& progress) {
-  const std::uint64_t count = tile_count(window);
+                   const std::function<bool(double)>& progress, std::uint32_t edge) {
+  const std::uint64_t count = tile_count(window, edge);
+  const std::uint64_t tiles_per_look =
+      std::max<std::uint64_t>(kPixelsPerLook / (std::uint64_t{edge} * edge), 1);
   // A thread takes several consecutive tiles at a time: enough to avoid contention for the counter,
   // and few enough to balance the load.
   const std::uint64_t run =
@@ -81,8 +83,8 @@ void for_each_tile(const PixelRect& window, Threads& threads, const DrawTile& dr
     tiles.take([&](std::uint64_t first, std::uint64_t last) {
       try {
         for (std::uint64_t index = first; index < last; ++index) {
-          if (index % kTilesPerLook == 0) poll();
-          draw(tile_at(index, window), poll);
+          if (index % tiles_per_look == 0) poll();
+          draw(tile_at(index, window, edge), poll);
           ++done;
         }
         tell();

@@ -16,12 +16,13 @@ namespace microtrace {
 inline constexpr std::uint32_t kTileEdge = 8;
 inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
-/// The number of tiles in the window, and in each row of tiles.
-[[nodiscard]] std::size_t tile_count(const PixelRect& window);
-[[nodiscard]] std::size_t tile_columns(const PixelRect& window);
+/// The number of tiles in the window, and in each row of tiles. `edge` is the side of the tiles.
+[[nodiscard]] std::size_t tile_count(const PixelRect& window, std::uint32_t edge = kTileEdge);
+[[nodiscard]] std::size_t tile_columns(const PixelRect& window, std::uint32_t edge = kTileEdge);
 
 /// The tile with this index. Tiles are numbered row by row from the upper left.
-[[nodiscard]] PixelRect tile_at(std::size_t index, const PixelRect& window);
+[[nodiscard]] PixelRect tile_at(std::size_t index, const PixelRect& window,
+                                std::uint32_t edge = kTileEdge);
 
 /// The index of a tile of the window.
 [[nodiscard]] inline std::size_t tile_index(const PixelRect& tile, const PixelRect& window) {
@@ -40,10 +41,11 @@ struct Threads {
 /// Draws a tile. It should call `poll` every few milliseconds and must let its exceptions pass.
 using DrawTile = std::function<void(const PixelRect& tile, const std::function<void()>& poll)>;
 
-/// Calls `draw` once for every tile of the window on `threads`, and `progress` with the finished
-/// fraction after tiles and every few milliseconds. The first exception that `draw` throws stops
-/// the work and is rethrown. If `progress` returns false, the work stops with Error (canceled).
+/// Calls `draw` once for every tile with sides of `edge` on `threads`, and `progress` with the
+/// finished fraction after tiles and every few milliseconds. The first exception that `draw` throws
+/// stops the work and is rethrown. If `progress` returns false, the work stops with Error
+/// (canceled).
 void for_each_tile(const PixelRect& window, Threads& threads, const DrawTile& draw,
-                   const std::function<bool(double)>& progress);
+                   const std::function<bool(double)>& progress, std::uint32_t edge = kTileEdge);
 
 }  // namespace microtrace

@@ -66,7 +66,8 @@ void check(Random& random, const Scene& scene, const Vec3& position, Counts& cou
   const Bvh bvh(scene);
   const RayGenerator camera(random_camera(random, position), kSize);
   for (int tile = 0; tile < 60; ++tile) {
-    const double width = random.one_in(4) ? 0 : 16 * random.unit(), height = 16 * random.unit();
+    const double edge = random.one_in(2) ? 16 : 64;
+    const double width = random.one_in(4) ? 0 : edge * random.unit(), height = edge * random.unit();
     const double x0 = kSize.width * random.unit(), y0 = kSize.height * random.unit();
     const std::optional<Frustum> frustum = camera.frustum(x0, y0, x0 + width, y0 + height);
     if (!frustum) continue;  // too wide

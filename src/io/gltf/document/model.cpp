@@ -9,11 +9,19 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>  // for tinygltf 2.7.0
 #include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 
+// The parser is compiled here, without its access to files and images. A program that links this
+// library may contain another version of tinygltf, so its namespace gets another name.
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_FS
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define tinygltf microtrace_tinygltf
 #include <tiny_gltf.h>
 
 namespace microtrace::io::gltf {
@@ -64,24 +72,6 @@ std::string parsed_part(const JsonValue& root) {
   return text + '}';
 }
 
-/// Returns a parser that accesses no files and decodes no images.
-tinygltf::TinyGLTF make_parser() {
-  tinygltf::TinyGLTF parser;
-  tinygltf::FsCallbacks none{};
-  none.FileExists = [](const std::string&, void*) { return false; };
-  none.ExpandFilePath = [](const std::string& path, void*) { return path; };
-  none.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
-    return false;
-  };
-  none.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
-                           void*) { return false; };
-  parser.SetFsCallbacks(none);
-  parser.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
-                           const unsigned char*, int, void*) { return true; },
-                        nullptr);
-  return parser;
-}
-
 tinygltf::Model parse(const Asset& asset) {
   const std::string text = parsed_part(*asset.root().value);
   if (text.size() > std::numeric_limits<unsigned>::max()) {
@@ -90,9 +80,9 @@ tinygltf::Model parse(const Asset& asset) {
   }
   tinygltf::Model model;
   std::string error, warning;
-  const bool parsed_whole = make_parser().LoadASCIIFromString(&model, &error, &warning, text.data(),
-                                                              static_cast<unsigned>(text.size()),
-                                                              "", tinygltf::NO_REQUIRE);
+  const bool parsed_whole = tinygltf::TinyGLTF().LoadASCIIFromString(
+      &model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "",
+      tinygltf::NO_REQUIRE);
   if (!parsed_whole || !error.empty()) {
     while (error.ends_with('\n')) error.pop_back();
     asset.fail(asset.root(), "tinygltf can't read the asset: " + error);

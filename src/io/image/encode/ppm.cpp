@@ -51,7 +51,10 @@ std::string encode_ppm(const Film& film, PpmEncoding ppm) {
   const FloatEnvironment environment;
   if (film.has_alpha()) throw Error(ErrorKind::usage, "", "a picture with alpha can't be PPM");
   std::string bytes = io::ppm_header(film.size(), ppm);
-  for (std::uint32_t y = 0; y < film.size().height; ++y) io::append_ppm_row(film, y, ppm, bytes);
+  const ImageSize size = film.size();
+  if (ppm == PpmEncoding::binary)
+    bytes.reserve(bytes.size() + std::size_t{3} * size.width * size.height);
+  for (std::uint32_t y = 0; y < size.height; ++y) io::append_ppm_row(film, y, ppm, bytes);
   return bytes;
 }
 
