@@ -18,4 +18,8 @@ void unmap_pages(void* p, std::size_t bytes) noexcept;
 /// and must be released as before. p is the beginning of a page.
 void discard_pages(void* p, std::size_t bytes) noexcept;
 
+/// Returns pages of malloc() that contain only freed memory to the system. Useful after many small
+/// allocations were freed.
+void trim_heap() noexcept;
+
 }  // namespace microtrace

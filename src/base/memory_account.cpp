@@ -55,6 +55,12 @@ void MemoryAccount::take(std::uint64_t bytes, std::string_view what) {
   taken_ += bytes;
 }
 
+void MemoryAccount::give_back(std::uint64_t bytes) {
+  if (budget_ == nullptr) return;
+  budget_->give_back(bytes);
+  taken_ -= bytes;
+}
+
 void MemoryAccount::clear() {
   if (budget_ != nullptr) budget_->give_back(std::exchange(taken_, 0));
 }

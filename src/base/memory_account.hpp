@@ -23,6 +23,8 @@ class MemoryAccount {
 
   /// Charges memory to this account, see MemoryBudget::take.
   void take(std::uint64_t bytes, std::string_view what);
+  /// Gives a part of the taken memory back to the budget.
+  void give_back(std::uint64_t bytes);
   /// Gives all memory of this account back to the budget.
   void clear();
 

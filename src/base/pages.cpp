@@ -8,6 +8,9 @@
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace microtrace {
 namespace {
@@ -86,6 +89,12 @@ bool can_map_pages(std::size_t bytes) noexcept {
 void discard_pages([[maybe_unused]] void* p, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef __linux__
   if (bytes >= kHugePage) ::madvise(p, bytes, MADV_DONTNEED);
+#endif
+}
+
+void trim_heap() noexcept {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
 #endif
 }
 

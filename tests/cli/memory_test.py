@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Tests a limit on the address space (ulimit -v): libraries that run out of memory must not change pictures.
+"""Tests a limit on the address space (ulimit -v): libraries that run out of memory must not change pictures. Measures the
+memory of many nodes.
 
 usage: memory_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -41,6 +42,20 @@ def square():
         "buffers": [{"byteLength": 80, "uri": "data:application/octet-stream;base64," + data}]})
 
 
+def nodes(count):
+    """Returns a triangle that so many nodes share."""
+    numbers = 3 * [0.123456789]
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(count))}],
+        "nodes": [{"mesh": 0, "name": f"Leaf.{i:07}", "rotation": [0, 0, 0, 1], "scale": numbers, "translation": numbers}
+                  for i in range(count)],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," +
+                     base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()}]})
+
+
 class Memory(ProgramTest):
     def check(self, picture, most, step, *arguments):
         """Lowers the limit from `most` KiB until twelve runs were refused. The picture must be the same, or the program
@@ -62,6 +77,17 @@ class Memory(ProgramTest):
                 self.assertFalse(path.exists())
                 refused += 1
         self.assertGreater(drawn, 0)
+
+    def test_nodes_need_a_kilobyte_each(self):
+        # The text and the JSON's values take most of it, but nothing else exists at the same time.
+        peaks = []
+        for count in (10_000, 60_000):
+            (self.folder / "nodes.gltf").write_text(nodes(count))
+            result = self.run_program("nodes.gltf", "--integrator", "flat", "--instances", "share", "--size", "8x8",
+                                      "--threads", "1", "-o", "a.ppm", "-q", "--stats=json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            peaks.append(json.loads(result.stdout or result.stderr)["peak_memory_mib"])
+        self.assertLess((peaks[1] - peaks[0]) * 2**20 / 50_000, 1250)
 
     def test_textures_are_not_white(self):
         (self.folder / "square.gltf").write_text(square())

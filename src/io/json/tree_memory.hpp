@@ -17,18 +17,17 @@ namespace microtrace::io {
 class TreeMemory {
  public:
   /// Counts an element of an array without its content.
-  void take_item() { take(sizeof(JsonValue)); }
+  void take_item() { take(kBytesOfItem); }
   /// Counts a member without its value's content, and its place in the index of large objects.
-  void take_member(const std::string& key) {
-    take(sizeof(JsonMember) + sizeof(std::uint32_t) + bytes_beside(key));
-  }
+  void take_member(const std::string& key) { take(bytes_of_member(key)); }
   /// Counts the content of a string value.
-  void take_boxed(const std::string& text) {
-    take(sizeof(std::string) + kBytesOfAllocation + bytes_beside(text));
-  }
+  void take_boxed(const std::string& text) { take(bytes_of_boxed(text)); }
   /// Counts the content of an array or object without its elements or members.
-  void take_container() {
-    take(2 * sizeof(std::vector<JsonValue>) + 2 * kBytesOfAllocation);  // an object has two vectors
+  void take_container() { take(kBytesOfContainer); }
+
+  /// The bytes that are counted for a member with its value.
+  [[nodiscard]] static std::uint64_t bytes_of(const JsonMember& member) {
+    return bytes_of_member(member.key) + bytes_of_content(member.value);
   }
 
   /// Adds an element to a stack. A stack that is full doubles, and the old one is freed afterwards.
@@ -42,6 +41,26 @@ class TreeMemory {
  private:
   /// What an allocation needs beside its content.
   static constexpr std::size_t kBytesOfAllocation = 16;
+  static constexpr std::size_t kBytesOfItem = sizeof(JsonValue);
+  /// An object has two vectors.
+  static constexpr std::size_t kBytesOfContainer =
+      2 * sizeof(std::vector<JsonValue>) + 2 * kBytesOfAllocation;
+
+  static std::size_t bytes_of_member(const std::string& key) {
+    return sizeof(JsonMember) + sizeof(std::uint32_t) + bytes_beside(key);
+  }
+  static std::size_t bytes_of_boxed(const std::string& text) {
+    return sizeof(std::string) + kBytesOfAllocation + bytes_beside(text);
+  }
+  static std::uint64_t bytes_of_content(const JsonValue& value) {
+    std::uint64_t result = 0;
+    if (value.kind() == JsonValue::Kind::string) result += bytes_of_boxed(value.string());
+    if (value.kind() == JsonValue::Kind::array || value.kind() == JsonValue::Kind::object)
+      result += kBytesOfContainer;
+    for (const JsonValue& item : value.items()) result += kBytesOfItem + bytes_of_content(item);
+    for (const JsonMember& member : value.members()) result += bytes_of(member);
+    return result;
+  }
 
   static std::size_t bytes_beside(const std::string& text) {
     constexpr std::size_t kMostInPlace = 15;

@@ -59,7 +59,8 @@ class JsonValue {
   void set(JsonValue content);
   /// Adds a member to this value, which must be an object without such a member. Returns its value.
   JsonValue& add(std::string key);
-  /// Removes the members whose keys satisfy `is_removed` from this value, which must be an object.
+  /// Removes the members whose keys satisfy `is_removed` from this value, which must be an object,
+  /// and releases their memory.
   template <class Predicate>
   void remove_members(const Predicate& is_removed);
 
@@ -138,7 +139,9 @@ inline const std::vector<JsonMember>& JsonValue::members() const {
 template <class Predicate>
 void JsonValue::remove_members(const Predicate& is_removed) {
   Members& members = *std::get<Boxed<Members>>(content_);
-  std::erase_if(members.list, [&](const JsonMember& member) { return is_removed(member.key); });
+  const auto is_removed_member = [&](const JsonMember& member) { return is_removed(member.key); };
+  if (std::erase_if(members.list, is_removed_member) == 0) return;
+  members.list.shrink_to_fit();
   members.index();
 }
 

@@ -1,5 +1,8 @@
 #include "io/gltf/document/asset.hpp"
 
+#include "base/memory_account.hpp"
+#include "io/json/tree_memory.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -52,6 +55,20 @@ void Asset::drop(const Element& object, const std::unordered_set<std::string_vie
   resolve(json_.root(), object.pointer)->remove_members([&](std::string_view key) {
     return keys.contains(key);
   });
+}
+
+void Asset::forget(std::string_view name, std::size_t index,
+                   std::span<const std::string_view> keys) {
+  JsonValue& item = *json_.root().find(name)->find(index);
+  std::uint64_t bytes = 0;
+  const auto is_forgotten = [&](std::string_view key) {
+    return std::ranges::find(keys, key) != keys.end();
+  };
+  for (const JsonMember& member : item.members())
+    if (is_forgotten(member.key)) bytes += TreeMemory::bytes_of(member);
+  item.remove_members(is_forgotten);
+  if (item.members().empty()) item.set(JsonValue());
+  memory_account().give_back(bytes);
 }
 
 void Asset::set(const Element& at, double number) {

@@ -6,6 +6,7 @@
 #include <microtrace/error.hpp>
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -28,8 +29,8 @@ struct Element {
 
 class Asset {
  public:
-  /// The document must outlive the asset, which modifies it only in drop and set. Warns about
-  /// duplicate keys.
+  /// The document must outlive the asset, which modifies it only in drop, forget and set. Warns
+  /// about duplicate keys.
   explicit Asset(JsonDocument& json);
 
   [[nodiscard]] Element root() const { return {&json_.root(), {}}; }
@@ -50,6 +51,10 @@ class Asset {
   /// Removes invalid members of an object from the asset's JSON, so no reader sees them. The caller
   /// must warn first. Invalidates Elements within the object.
   void drop(const Element& object, const std::unordered_set<std::string_view>& keys);
+  /// Removes members of an item of the root object's array `name`, because their content has been
+  /// stored elsewhere. An item without other members becomes null. Gives the memory back to
+  /// memory_account(). Invalidates Elements within the item.
+  void forget(std::string_view name, std::size_t index, std::span<const std::string_view> keys);
   /// Replaces a number. The caller must warn first.
   void set(const Element& at, double number);
 

@@ -1,5 +1,6 @@
 #include "io/gltf/document/model.hpp"
 
+#include "base/mapped_pages.hpp"
 #include "base/memory_account.hpp"
 #include "io/gltf/document/model_json.hpp"
 #include "io/gltf/document/properties.hpp"
@@ -37,6 +38,11 @@ constexpr std::array<std::string_view, 6> kParsedMembers = {"asset",  "scene",  
 /// which glTF allows, stores sparse offsets as int, and rejects assets with wrong strides.
 constexpr std::array<std::string_view, 5> kLeftOut = {"extensions", "extras", "indices", "sparse",
                                                       "byteStride"};
+
+/// Members of nodes that only the model needs. They are most of the JSON of an asset with millions
+/// of nodes.
+constexpr std::array<std::string_view, 7> kReadOfNodes = {
+    "children", "matrix", "mesh", "name", "rotation", "scale", "translation"};
 
 /// Returns true if check_schema has removed the type of an accessor because it was unknown.
 bool is_unknown(const JsonValue& accessor) {
@@ -174,14 +180,34 @@ std::size_t count_values(const JsonValue& value) {
   return result;
 }
 
-/// Counts the model's memory, which is estimated from the number of items in the asset's arrays.
-/// kParts is the estimated size of an item's small members.
+/// The estimated size of an item's small members.
+constexpr std::size_t kParts = 128;
+
+void count(std::size_t items, std::size_t bytes) {
+  take_memory(items * bytes, "the asset's model");
+}
+
+/// Makes the model's nodes, and removes what they contain from the JSON, whose memory returns to
+/// the system meanwhile.
+std::vector<Model::Node> take_nodes(Asset& asset) {
+  constexpr std::size_t kNodesPerTrim = std::size_t{1} << 15U;
+  const std::vector<JsonValue>& nodes = asset.array("nodes");
+  std::vector<Model::Node> result;
+  result.reserve(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i % kNodesPerTrim == 0) {
+      if (i > 0) trim_heap();
+      count(std::min(nodes.size() - i, kNodesPerTrim), sizeof(Model::Node) + kParts);
+    }
+    result.push_back(node_of(nodes[i]));
+    asset.forget("nodes", i, kReadOfNodes);
+  }
+  return result;
+}
+
+/// Counts the memory of the model without its nodes, which is estimated from the number of items in
+/// the asset's arrays.
 void count_model(const Asset& asset) {
-  const auto count = [](std::size_t items, std::size_t bytes) {
-    take_memory(items * bytes, "the asset's model");
-  };
-  constexpr std::size_t kParts = 128;
-  count(asset.array("nodes").size(), sizeof(Model::Node) + kParts);
   count(asset.array("meshes").size(), sizeof(Model::Mesh) + kParts);
   count(asset.array("accessors").size(), sizeof(Model::Accessor));
   count(asset.array("bufferViews").size(), sizeof(Model::BufferView));
@@ -197,7 +223,12 @@ void count_model(const Asset& asset) {
 
 }  // namespace
 
-Model parse_model(const Asset& asset) {
+Model parse_model(Asset& asset) {
+  count_model(asset);
+  Model model;
+  const std::vector<JsonValue>&views = asset.array("bufferViews"),
+        &accessors = asset.array("accessors"), &meshes = asset.array("meshes");
+  model.nodes = take_nodes(asset);
   // Estimated memory for the text, for tinygltf's own JSON tree, and for tinygltf's result.
   constexpr std::size_t kBytesOfValue = 160, kBytesOfItem = 512;
   std::size_t work_bytes = 0;
@@ -207,11 +238,7 @@ Model parse_model(const Asset& asset) {
     work_bytes += count_values(*parsed) * kBytesOfValue + parsed->items().size() * kBytesOfItem;
   }
   const MemoryAccount work = temporary_memory(work_bytes, "reading the asset's JSON");
-  count_model(asset);
   tinygltf::Model parsed = parse(asset);
-  Model model;
-  const std::vector<JsonValue>&views = asset.array("bufferViews"),
-        &accessors = asset.array("accessors"), &meshes = asset.array("meshes");
   for (std::size_t i = 0; i < views.size(); ++i) {
     const tinygltf::BufferView& view = parsed.bufferViews[i];
     model.buffer_views.push_back({.buffer = static_cast<std::size_t>(view.buffer),
@@ -225,8 +252,6 @@ Model parse_model(const Asset& asset) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     model.meshes.push_back(mesh_of(parsed.meshes[i], meshes[i]));
   }
-  model.nodes.reserve(asset.array("nodes").size());
-  for (const JsonValue& node : asset.array("nodes")) model.nodes.push_back(node_of(node));
   for (const JsonValue& skin : asset.array("skins")) model.skins.push_back(skin_of(skin));
   for (const tinygltf::Scene& scene : parsed.scenes) {
     model.scenes.push_back(indices_of(scene.nodes));

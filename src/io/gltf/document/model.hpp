@@ -91,7 +91,8 @@ struct Model {
   std::size_t scene = 0;  ///< index of the scene to draw, if there are any scenes
 };
 
-/// Makes the model of an asset that has passed the checks. Throws Error (limit).
-[[nodiscard]] Model parse_model(const Asset& asset);
+/// Makes the model of an asset that has passed the checks, and removes members of nodes that only
+/// the model needs from the asset. Throws Error (limit).
+[[nodiscard]] Model parse_model(Asset& asset);
 
 }  // namespace microtrace::io::gltf

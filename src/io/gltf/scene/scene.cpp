@@ -161,6 +161,13 @@ struct GltfFile::Content {
     return result;
   }
 
+  [[nodiscard]] PointBounds bounds(const gltf::PosedAsset& pose) {
+    Asset unheard = asset;
+    const std::vector<PlacedNode> nodes = tree.place(unheard, DMat4(1), pose.nodes);
+    gltf::Poser poser(unheard, model, reader, tree, pose.nodes, DMat4(1));
+    return gltf::bounds_of(model, nodes, surfaces, instances, poser);
+  }
+
   std::vector<std::vector<Surface>> made_surfaces() {
     auto result = gltf::make_surfaces(asset, model, reader, materials, detail, unlit);
     gltf::add_unlit_copies(materials, unlit);
@@ -230,12 +237,7 @@ SceneChoices GltfFile::choices() const {
 LoadedScene GltfFile::at(std::optional<double> time) {
   return guarded(content_->name, [&] {
     const gltf::PosedAsset pose = content_->pose(time);
-    Asset unheard = content_->asset;
-    const std::vector<PlacedNode> nodes = content_->tree.place(unheard, DMat4(1), pose.nodes);
-    gltf::Poser poser(unheard, content_->model, content_->reader, content_->tree, pose.nodes,
-                      DMat4(1));
-    const DVec3 way = translation_to_origin(
-        gltf::bounds_of(content_->model, nodes, content_->surfaces, content_->instances, poser));
+    const DVec3 way = translation_to_origin(content_->bounds(pose));
     LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way), 1);
     result.scene.origin = -way;
     return result;

@@ -14,14 +14,12 @@ namespace {
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 /// For each mesh, the number of joints of the smallest skin applied to it, or kNone.
-std::vector<std::size_t> joint_counts(const Asset& asset) {
-  std::vector<std::size_t> result(asset.array("meshes").size(), kNone);
-  for (const JsonValue& node : asset.array("nodes")) {
-    const JsonValue *mesh = node.find("mesh"), *skin = node.find("skin");
-    if (mesh == nullptr || skin == nullptr) continue;
-    const JsonValue& json = asset.array("skins")[index_from(*skin)];
-    std::size_t& least = result[index_from(*mesh)];
-    least = std::min(least, json.find("joints")->items().size());
+std::vector<std::size_t> joint_counts(const Model& model) {
+  std::vector<std::size_t> result(model.meshes.size(), kNone);
+  for (const Model::Node& node : model.nodes) {
+    if (!node.mesh || !node.skin) continue;
+    std::size_t& least = result[*node.mesh];
+    least = std::min(least, model.skins[*node.skin].joints.size());
   }
   return result;
 }
@@ -136,7 +134,7 @@ class InfluenceCheck {
 
 void check_influences(Asset& asset, const Model& model, const BufferViews& views) {
   InfluenceCheck check(asset, model, views);
-  const std::vector<std::size_t> counts = joint_counts(asset);
+  const std::vector<std::size_t> counts = joint_counts(model);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == kNone) continue;
     const Element primitives = asset.element("meshes", i).member("primitives");
