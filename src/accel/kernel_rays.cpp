@@ -75,11 +75,8 @@ KernelRay kernel_ray_from(const Ray& ray, double t_scale, const exact::Enclosure
 }
 
 bool fill_packet(std::span<const Ray> rays, const Kernels& kernels, KernelPacket& packet) {
-  // Kernels read rays as eight floats, because they can't include the header of Ray.
-  static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, t_min) == 3 * sizeof(float) &&
-                offsetof(Ray, d) == 4 * sizeof(float) && offsetof(Ray, t_max) == 7 * sizeof(float));
   packet.order = best_order(rays).data();
-  return kernels.fill_packet(&rays[0].o.x, static_cast<int>(rays.size()), packet);
+  return kernels.fill_packet(numbers_of(rays), static_cast<int>(rays.size()), packet);
 }
 
 }  // namespace microtrace

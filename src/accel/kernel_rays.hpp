@@ -6,6 +6,7 @@
 
 #include <microtrace/ray.hpp>
 
+#include <cstddef>
 #include <span>
 
 namespace microtrace {
@@ -23,6 +24,14 @@ namespace microtrace {
 /// must decide hits that may be on either side of the number.
 [[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, double t_scale,
                                         const exact::Enclosure& begin);
+
+/// The rays as eight numbers each, which is how kernels read them, because they can't include the
+/// header of Ray.
+[[nodiscard]] inline const float* numbers_of(std::span<const Ray> rays) {
+  static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, t_min) == 3 * sizeof(float) &&
+                offsetof(Ray, d) == 4 * sizeof(float) && offsetof(Ray, t_max) == 7 * sizeof(float));
+  return &rays[0].o.x;
+}
 
 /// Fills a packet with 1 to kPacketRays rays and no hits. Returns false if the rays have different
 /// origins, are invalid or exceed the kernels' limits.

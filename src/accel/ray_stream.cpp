@@ -1,6 +1,7 @@
 #include "accel/ray_stream.hpp"
 
 #include "accel/hit_rounding.hpp"
+#include "accel/kernel_rays.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 #include "accel/resolve/open_side.hpp"
 
@@ -15,17 +16,7 @@ void RayStream::fill(const Rays& these) {
   rays_ = rays;
   KernelStream& s = stream_;
   s.count = static_cast<int>(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Ray& ray = rays[i];
-    s.o[0][i] = ray.o.x;
-    s.o[1][i] = ray.o.y;
-    s.o[2][i] = ray.o.z;
-    s.d[0][i] = ray.d.x;
-    s.d[1][i] = ray.d.y;
-    s.d[2][i] = ray.d.z;
-    s.t_min[i] = ray.t_min;
-    s.best_hi[i] = ray.t_max;
-  }
+  target_.kernels.read_stream(numbers_of(rays), s);
   if (left.empty())
     std::fill_n(s.omitted_id, rays.size(), kNoPrimitive);
   else

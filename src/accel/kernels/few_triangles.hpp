@@ -51,20 +51,28 @@ class FewTrianglesWalk {
   struct Group {
     RectangleRays<N> rectangle_rays;
     Lanes rays;
-    F d_sum, begin, t_min, best_lo{}, best_hi{};
-    F limit{};  ///< best_hi, but at most kFarthestHit
+    F d_sum, begin, t_min, best_lo, best_hi;
+    F limit;  ///< best_hi, but at most kFarthestHit
+
+    Group(const KernelStream& stream, int first)
+        : rectangle_rays(stream, first),
+          rays(stream.count - first < N ? (Lanes{1} << (stream.count - first)) - 1 : kAllLanes<N>),
+          d_sum(load<N>(stream.d_sum + first)),
+          begin(load<N>(stream.t_begin + first)),
+          t_min(load<N>(stream.t_min + first)) {
+      load_best(stream, first);
+    }
+    void load_best(const KernelStream& stream, int first) {
+      best_lo = load<N>(stream.best_lo + first);
+      best_hi = load<N>(stream.best_hi + first);
+      limit = lesser(best_hi, all<N>(kFarthestHit));
+    }
   };
 
   /// Updates the nearest hits of rays first_ to first_ + N - 1.
   void meet_all() {
-    const int rest = stream_.count - first_;
-    Group group{.rectangle_rays{stream_, first_},
-                .rays = rest < N ? (Lanes{1} << rest) - 1 : kAllLanes<N>,
-                .d_sum = load<N>(stream_.d_sum + first_),
-                .begin = load<N>(stream_.t_begin + first_),
-                .t_min = load<N>(stream_.t_min + first_)};
+    Group group(stream_, first_);
     if (kAny) group.rays &= without_hit();
-    load_best(group);
     const FewTriangles& few = *tree_.few;
     int i = 0;
     for (; i < few.ends[0] && group.rays != 0; ++i) meet_rectangle<0>(few.facets[i], group);
@@ -78,11 +86,6 @@ class FewTrianglesWalk {
   /// Returns the rays for which no hit has been found.
   [[nodiscard]] Lanes without_hit() const {
     return equal_to<N>(stream_.best_id + first_, kNoPrimitive);
-  }
-  void load_best(Group& group) const {
-    group.best_lo = load<N>(stream_.best_lo + first_);
-    group.best_hi = load<N>(stream_.best_hi + first_);
-    group.limit = lesser(group.best_hi, all<N>(kFarthestHit));
   }
   void store_best(const Group& group) {
     store<N>(stream_.best_lo + first_, group.best_lo);
@@ -178,7 +181,7 @@ class FewTrianglesWalk {
     if (rays.maybe == 0) return;
     store_best(group);
     decide(triangle, rays, hits.t, hits.with_t);
-    load_best(group);
+    group.load_best(stream_, first_);
     if (kAny) group.rays &= without_hit();
   }
 

@@ -254,6 +254,9 @@ struct Kernels {
   /// Does what `closest` does for all rays of a filled packet, but passes through open sides. If
   /// the side is uncertain, `slow` decides.
   void (*closest_of_packet)(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow);
+  /// Stores the rays in a stream, whose count the caller has set. Each ray consists of eight
+  /// numbers, as for fill_packet().
+  void (*read_stream)(const float* rays, KernelStream& stream);
   /// Sets the members of a stream below the dashed line, without hits.
   void (*prepare_stream)(KernelStream& stream);
   /// Does what `closest` does for all rays of a prepared stream, but passes through open sides, for

@@ -8,9 +8,18 @@
 #include "accel/kernels/stream_rays.hpp"
 
 namespace microtrace {
-const Kernels kPortableKernels{
-    "portable",          kShapeKernels<2>,     closest<4>,           any<4>,
-    fill_packet<4>,      closest_of_packet<4>, prepare_stream<4>,    closest_of_stream<4, 4>,
-    any_of_stream<4, 4>, round_t<4>,           round_t_of_packet<4>, touching<4, 4>,
-    edge_tests};
+const Kernels kPortableKernels{"portable",
+                               kShapeKernels<2>,
+                               closest<4>,
+                               any<4>,
+                               fill_packet<4>,
+                               closest_of_packet<4>,
+                               read_stream<4>,
+                               prepare_stream<4>,
+                               closest_of_stream<4, 4>,
+                               any_of_stream<4, 4>,
+                               round_t<4>,
+                               round_t_of_packet<4>,
+                               touching<4, 4>,
+                               edge_tests};
 }

@@ -67,6 +67,17 @@ class StreamWalk {
     return kInstances && flight.scope.instance != nullptr;
   }
 
+  // The numbers of all slots. Vectors are loaded from here, because a vector of numbers that were
+  // just stored would have to wait for them.
+  struct Slots {
+    std::uint32_t number[kInFlight];
+  };
+  static constexpr Slots kSlots = [] {
+    Slots slots{};
+    for (std::uint32_t i = 0; i < kInFlight; ++i) slots.number[i] = i;
+    return slots;
+  }();
+
   struct List {
     int size = 0;
     std::uint32_t slot[kInFlight + 8];  // with room for stores of eight elements at a time
@@ -215,9 +226,7 @@ class StreamWalk {
     for (std::uint32_t first = 0; first < kInFlight; first += 8) {
       const auto list = [&](List& to, ChildRef least, ChildRef greatest) {
         const Lanes lanes = lanes_within(next_ + first, least, greatest);
-        std::uint32_t slots[8];
-        for (std::uint32_t i = 0; i < 8; ++i) slots[i] = first + i;
-        store_lanes(lanes, slots, to.slot + to.size);
+        store_lanes(lanes, kSlots.number + first, to.slot + to.size);
         to.size += lane_count(lanes);
       };
       list(nodes_, 0, child_ref::kTriangles - 1);

@@ -1,12 +1,30 @@
 #pragma once
-/// Prepares the rays of a stream for traversal.
+/// Transposes the rays of a stream, and prepares them for traversal.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/slabs.hpp"
+#include "simd/transpose.hpp"
 
 namespace microtrace {
 namespace {
+
+template <int N>
+void read_stream(const float* rays, KernelStream& stream) {
+  for (int i = 0; i < stream.count; i += N) {
+    std::uint32_t row[N];
+    for (int lane = 0; lane < N; ++lane)
+      row[lane] = static_cast<std::uint32_t>(i + lane < stream.count ? i + lane : stream.count - 1);
+    Float<N> column[8];
+    load_rows<N>(rays, row, column);
+    for (int axis = 0; axis < 3; ++axis) {
+      store<N>(stream.o[axis] + i, column[axis]);
+      store<N>(stream.d[axis] + i, column[4 + axis]);
+    }
+    store<N>(stream.t_min + i, column[3]);
+    store<N>(stream.best_hi + i, column[7]);
+  }
+}
 
 template <int N>
 void prepare_stream(KernelStream& stream) {
@@ -43,6 +61,7 @@ void prepare_stream(KernelStream& stream) {
     store<N>(stream.t_begin + i, t_min < all<N>(kLeastBegin) ? zero : t_min);
     store<N>(stream.best_lo + i, t_max);
     store<N>(stream.best_hi + i, t_max);
+    for (int lane = 0; lane < N; ++lane) stream.best_id[i + lane] = kNoPrimitive;
     const int shift = i % 64;
     std::uint64_t& set = stream.suited[i / 64];
     set = (shift == 0 ? 0 : set) | std::uint64_t{suited} << shift;
@@ -55,9 +74,8 @@ void prepare_stream(KernelStream& stream) {
     }
     stream.best_hi[i] = stream.best_hi[i - 1];
     stream.omitted_id[i] = stream.omitted_id[i - 1];
+    stream.best_id[i] = kNoPrimitive;
   }
-  __builtin_memset(stream.best_id, 0xff, sizeof stream.best_id);
-  static_assert(kNoPrimitive == 0xffffffff);
 }
 
 }  // namespace
