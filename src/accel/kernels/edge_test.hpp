@@ -23,7 +23,7 @@ struct NearTriangle {
   double a[3], e1[3], e2[3];
 
   NearTriangle(const TriangleBlock& block, int k, const float* o) {
-    const std::size_t slot = static_cast<std::size_t>(k);
+    const auto slot = static_cast<std::size_t>(k);
     for (int axis = 0; axis < 3; ++axis) {
       const double first = coordinate(block, 0, slot, axis);
       a[axis] = first - o[axis];

@@ -84,7 +84,8 @@ class PacketWalk {
       return;
     }
     for_each_group(groups, [&](int group) {
-      const float* hits = &packet_.best_hi[group * kGroupRays];
+      const int first = group * kGroupRays;
+      const float* hits = packet_.best_hi + first;
       F limit = load<N>(hits);
       for (int i = N; i < kGroupRays; i += N) limit = greater(limit, load<N>(hits + i));
       limit_[group] = greatest_of<N>(limit);

@@ -17,7 +17,7 @@ namespace {
 /// Returns the numbers among the first four of each ray, o and t_min, whose bits aren't the same
 /// for all rays.
 inline Lanes differing_numbers(const float* rays, int count) {
-  const Int<4> first = reinterpreted<Int<4>>(load<4>(rays));
+  const auto first = reinterpreted<Int<4>>(load<4>(rays));
   Int<4> difference{};
   for (int i = 0; i < count; ++i)
     difference |= reinterpreted<Int<4>>(load<4>(rays + 8 * static_cast<std::ptrdiff_t>(i))) ^ first;
