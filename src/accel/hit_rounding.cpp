@@ -67,23 +67,23 @@ std::uint64_t found_of(std::span<const std::uint32_t> ids) {
   return result;
 }
 
+/// The set of the first `count` elements.
+std::uint64_t all_of(std::size_t count) {
+  return ~std::uint64_t{0} >> (kHitBatch - count);
+}
+
 struct RoundedT {
   std::uint64_t certain;  // one bit per ray, set if t is certainly the rounded exact value
   const float* t;
 };
 
-// Writes the hits. resolve(i, id) must return the hit of element i's ray with primitive `id`.
+// Writes the hits. `found` are the elements of `ids` that are not kNoPrimitive. resolve(i, id) must
+// return the hit of element i's ray with primitive `id`.
 template <class Resolve>
-void write_hits(const std::uint32_t* ids, const std::uint8_t* order, const RoundedT& rounded,
-                const Resolve& resolve, std::span<std::optional<Hit>> hits) {
-  const std::uint64_t all = ~std::uint64_t{0} >> (kHitBatch - hits.size());
-  if ((rounded.certain & all) == all) {
-    for (std::size_t i = 0; i < hits.size(); ++i)
-      hits[order[i]] = Hit{.id = ids[i], .t = rounded.t[i]};
-    return;
-  }
-  const std::uint64_t found = found_of({ids, hits.size()});
-  for_each_bit(all & ~found, [&](std::size_t i) { hits[order[i]].reset(); });
+void write_hits(const std::uint32_t* ids, std::uint64_t found, const std::uint8_t* order,
+                const RoundedT& rounded, const Resolve& resolve,
+                std::span<std::optional<Hit>> hits) {
+  for_each_bit(all_of(hits.size()) & ~found, [&](std::size_t i) { hits[order[i]].reset(); });
   for_each_bit(found & rounded.certain,
                [&](std::size_t i) { hits[order[i]] = Hit{.id = ids[i], .t = rounded.t[i]}; });
   for_each_bit(found & ~rounded.certain,
@@ -100,9 +100,9 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
   std::copy_n(found.d, 3, batch.d);
   CornerFinder corners(primitives);
   std::uint64_t triangles = 0;  // one bit per ray that hits a mesh triangle
-  const std::uint64_t all = found_of({found.ids, count});
+  const std::uint64_t hit = found_of({found.ids, count});
   const auto for_each_hit = [&](const auto& f) {
-    for_each_bit(all, [&](std::size_t i) { f(i, found.ids[i]); });
+    for_each_bit(hit, [&](std::size_t i) { f(i, found.ids[i]); });
   };
   // The hits of incoherent rays are far apart in memory.
   for_each_hit([&](std::size_t, PrimitiveId id) { corners.fetch_indices(id); });
@@ -114,7 +114,7 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
   const auto resolve = [&](std::size_t i, PrimitiveId id) {
     return HitResolver(primitives, found.rays[i]).hit(id);
   };
-  write_hits(found.ids, kGivenOrder.data(), {.certain = certain, .t = batch.t}, resolve,
+  write_hits(found.ids, hit, kGivenOrder.data(), {.certain = certain, .t = batch.t}, resolve,
              hits.first(count));
 }
 
@@ -122,8 +122,15 @@ void round_hits(const PacketResolver& resolver, const Kernels& kernels, const Ke
                 std::span<std::optional<Hit>> hits) {
   alignas(64) float t[kPacketRays];
   const std::uint64_t certain = kernels.round_t_of_packet(packet, t);
+  const std::uint64_t all = all_of(hits.size());
+  if ((certain & all) == all) {  // as for most packets
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      hits[packet.order[i]] = Hit{.id = packet.best_id[i], .t = t[i]};
+    return;
+  }
   const auto resolve = [&](std::size_t i, PrimitiveId id) { return resolver.hit(i, id); };
-  write_hits(packet.best_id, packet.order, {.certain = certain, .t = t}, resolve, hits);
+  write_hits(packet.best_id, found_of({packet.best_id, hits.size()}), packet.order,
+             {.certain = certain, .t = t}, resolve, hits);
 }
 
 }  // namespace microtrace

@@ -62,7 +62,7 @@ void MemoryAccount::give_back(std::uint64_t bytes) {
 }
 
 void MemoryAccount::clear() {
-  if (budget_ != nullptr) budget_->give_back(std::exchange(taken_, 0));
+  give_back(taken_);
 }
 
 MemoryScope::MemoryScope(MemoryAccount& account) : former_(std::exchange(current, &account)) {}

@@ -80,6 +80,18 @@ struct Rays {
   }
 };
 
+/// The rays as eight numbers each, as kernels read them.
+using Numbers = std::array<std::array<float, 8>, kPacketRays>;
+Numbers numbers_of(const Rays& rays) {
+  Numbers numbers{};
+  for (std::size_t i = 0; i < kPacketRays; ++i) {
+    std::copy_n(rays.o, 3, numbers[i].data());
+    std::copy_n(rays.d[i].data(), 3, numbers[i].data() + 4);
+    numbers[i][7] = kInfinity;
+  }
+  return numbers;
+}
+
 Results one_by_one(const TreeView& tree, const Rays& rays) {
   Results results;
   for (std::size_t i = 0; i < kPacketRays; ++i) {
@@ -106,17 +118,11 @@ Results as_packet(const TreeView& tree, const Rays& rays) {
   std::uint8_t order[kPacketRays];
   for (unsigned i = 0; i < kPacketRays; ++i)
     order[i] = static_cast<std::uint8_t>((i / 32 * 4 + i % 16 / 4) * 8 + i / 16 % 2 * 4 + i % 4);
-  float numbers[kPacketRays][8];
-  for (std::size_t i = 0; i < kPacketRays; ++i) {
-    std::copy_n(rays.o, 3, numbers[i]);
-    std::copy_n(rays.d[i].data(), 3, numbers[i] + 4);
-    numbers[i][3] = 0;
-    numbers[i][7] = kInfinity;
-  }
+  const Numbers numbers = numbers_of(rays);
   Results places, results;
   const auto packet = std::make_unique<KernelPacket>();
   packet->order = order;
-  if (!kPortableKernels.fill_packet(numbers[0], kPacketRays, *packet))
+  if (!kPortableKernels.fill_packet(numbers[0].data(), kPacketRays, *packet))
     std::puts("a packet is refused");
   kPortableKernels.closest_of_packet(
       tree, *packet,
@@ -136,15 +142,9 @@ Results as_packet(const TreeView& tree, const Rays& rays) {
 Results as_stream(const TreeView& tree, const Rays& rays) {
   const auto stream = std::make_unique<KernelStream>();
   stream->count = kPacketRays;
-  for (std::size_t i = 0; i < kPacketRays; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      stream->o[axis][i] = rays.o[axis];
-      stream->d[axis][i] = rays.d[i][axis];
-    }
-    stream->t_min[i] = 0;
-    stream->best_hi[i] = kInfinity;
-    stream->omitted_id[i] = kNoPrimitive;
-  }
+  const Numbers numbers = numbers_of(rays);
+  kPortableKernels.read_stream(numbers[0].data(), *stream);
+  std::fill_n(stream->omitted_id, kPacketRays, kNoPrimitive);
   Results results;
   kPortableKernels.prepare_stream(*stream);
   kPortableKernels.closest_of_stream(

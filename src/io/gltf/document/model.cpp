@@ -225,10 +225,7 @@ void count_model(const Asset& asset) {
 
 Model parse_model(Asset& asset) {
   count_model(asset);
-  Model model;
-  const std::vector<JsonValue>&views = asset.array("bufferViews"),
-        &accessors = asset.array("accessors"), &meshes = asset.array("meshes");
-  model.nodes = take_nodes(asset);
+  Model model{.nodes = take_nodes(asset)};
   // Estimated memory for the text, for tinygltf's own JSON tree, and for tinygltf's result.
   constexpr std::size_t kBytesOfValue = 160, kBytesOfItem = 512;
   std::size_t work_bytes = 0;
@@ -239,6 +236,8 @@ Model parse_model(Asset& asset) {
   }
   const MemoryAccount work = temporary_memory(work_bytes, "reading the asset's JSON");
   tinygltf::Model parsed = parse(asset);
+  const std::vector<JsonValue>&views = asset.array("bufferViews"),
+        &accessors = asset.array("accessors"), &meshes = asset.array("meshes");
   for (std::size_t i = 0; i < views.size(); ++i) {
     const tinygltf::BufferView& view = parsed.bufferViews[i];
     model.buffer_views.push_back({.buffer = static_cast<std::size_t>(view.buffer),
