@@ -67,6 +67,10 @@ class FewTrianglesWalk {
       best_hi = load<N>(stream.best_hi + first);
       limit = lesser(best_hi, all<N>(kFarthestHit));
     }
+    void store_best(KernelStream& stream, int first) const {
+      store<N>(stream.best_lo + first, best_lo);
+      store<N>(stream.best_hi + first, best_hi);
+    }
   };
 
   /// Updates the nearest hits of rays first_ to first_ + N - 1.
@@ -80,16 +84,12 @@ class FewTrianglesWalk {
     for (; i < few.ends[2] && group.rays != 0; ++i) meet_rectangle<2>(few.facets[i], group);
     for (; i < few.ends[FewTriangles::kOblique] && group.rays != 0; ++i)
       meet_oblique(few.facets[i], group);
-    store_best(group);
+    group.store_best(stream_, first_);
   }
 
   /// Returns the rays for which no hit has been found.
   [[nodiscard]] Lanes without_hit() const {
     return equal_to<N>(stream_.best_id + first_, kNoPrimitive);
-  }
-  void store_best(const Group& group) {
-    store<N>(stream_.best_lo + first_, group.best_lo);
-    store<N>(stream_.best_hi + first_, group.best_hi);
   }
 
   /// Updates the nearest hits of the rays that hit a facet.
@@ -179,7 +179,7 @@ class FewTrianglesWalk {
     if (rays.maybe != 0)
       rays.maybe &= rays_entering<N>(stream_, first_, triangle.box, group.best_hi);
     if (rays.maybe == 0) return;
-    store_best(group);
+    group.store_best(stream_, first_);
     decide(triangle, rays, hits.t, hits.with_t);
     group.load_best(stream_, first_);
     if (kAny) group.rays &= without_hit();
