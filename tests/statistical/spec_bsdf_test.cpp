@@ -1,9 +1,9 @@
 // Compares BsdfModel::spec with an independent implementation of the specification's formulas.
 
-#include "render/sampling/sobol.hpp"
 #include "support/pi.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/direction_pdf.hpp"
+#include "support/shading/furnace.hpp"
 #include "support/shading/scattering.hpp"
 #include "support/shading/spec_reference.hpp"
 
@@ -115,14 +115,7 @@ TEST(SpecBsdf, SamplesHaveTheirPdf) {
 
 /// Estimates the directional albedo for wo by sampling.
 double albedo(const SpecExample& surface, const Vec3& wo) {
-  const Scattering bsdf = surface.scattering(wo);
-  constexpr std::uint32_t samples = 1U << 15U;
-  double sum = 0;
-  for (std::uint32_t k = 0; k < samples; ++k) {
-    const sampling::Sobol sobol(7, k);
-    if (const auto s = bsdf.sample(sobol.pair(0), sobol.one(1))) sum += s->weight.x;
-  }
-  return sum / samples;
+  return sampled_albedo(surface.scattering(wo), 1U << 15U).x;
 }
 
 /// Integrates the reference over all directions by the midpoint rule.

@@ -1,12 +1,18 @@
 // White furnace test of the whole renderer: in a uniform environment, spheres that absorb nothing
 // must be invisible, at any angle and with any layers.
 
+#include "support/pictures.hpp"
+
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
 
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -57,6 +63,45 @@ TEST(WhiteSphere, CannotBeSeen) {
     cloth.sheen = Sheen{.color = Vec3(1), .roughness = 0.5F};
     expect_white("thin walls", wall);
     expect_white("cloth", cloth);
+  }
+}
+
+/// Returns the mean radiance of a coated square in light of radiance 1, seen at an angle to its
+/// normal. The normals of the base are turned by atan(slope) toward the camera.
+double brightness_of_coat(const Material& coated, double theta, double slope) {
+  Scene scene;
+  const double length = std::sqrt(1 + slope * slope);
+  std::vector<std::uint8_t> texel;
+  for (const double x : {slope / length, 0.0, 1 / length, 1.0})
+    texel.push_back(static_cast<std::uint8_t>(std::lround(127.5 * (x + 1))));
+  scene.images.push_back(
+      std::make_shared<const Image>(Image{.width = 1, .height = 1, .samples = std::move(texel)}));
+  scene.textures.push_back({.image = 0});
+  scene.materials = {coated};
+  scene.materials[0].normal_texture = TextureUse{.texture = 0};
+  Mesh square = parallelogram({-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+  square.normals = std::vector(4, Vec3(0, 1, 0));
+  square.tangents = std::vector(4, Vec4(1, 0, 0, 1));
+  square.uv_sets = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  scene.objects.push_back({.name = "square", .shape = std::move(square), .material = 0});
+  scene.environment = Environment{.content = Vec3(1)};
+  const DVec3 toward(std::sin(theta), std::cos(theta), 0);
+  const OrthographicCamera camera{
+      .pose = {.position = 4.0 * toward, .direction = -toward, .up = {0, 1, 0}}, .height = 0.1};
+  const PathIntegrator path;
+  return mean_of(render(scene, camera, {8, 8}, {.integrator = &path, .samples = 4096})).x;
+}
+
+// Toward the camera, the coat reflects to directions below the horizon of the base's normal.
+TEST(WhiteSquare, CannotBeSeenUnderACoatOfItsOwn) {
+  for (const float roughness : {0.05F, 0.4F, 0.9F}) {
+    const Material plastic{
+        .metallic = 0, .roughness = roughness, .clearcoat = Clearcoat{.factor = 1, .roughness = 0}};
+    for (const double theta : {0.2, 0.8, 1.2, 1.4}) {
+      for (const double slope : {0.1, 0.3})
+        EXPECT_NEAR(brightness_of_coat(plastic, theta, slope), 0.997, 0.006)
+            << roughness << ' ' << theta << ' ' << slope;
+    }
   }
 }
 

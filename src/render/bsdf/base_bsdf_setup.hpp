@@ -265,7 +265,7 @@ auto BaseBsdf<N, Parts>::left(const Coating<N>* coating, const V& w) const -> Le
   const Albedo<N> albedo = albedo_.at(w);
   const GreatestSchlick<N> dielectric = dielectric_at(w.z);
   if (coating == nullptr) return left(dielectric, albedo);
-  return left(dielectric, albedo, coating->transmittance(w), coating->deficit(w.z));
+  return left(dielectric, albedo, coating->transmittance(w), coating->deficit(w, albedo));
 }
 
 template <int N, class Parts>
@@ -276,10 +276,10 @@ auto BaseBsdf<N, Parts>::mean_left(const Coating<N>* coating) const -> Left {
     const F z = all<N>(kTables.coating_node[k]);
     const GreatestSchlick<N> dielectric = dielectric_at(z);
     const Albedo<N> albedo = albedo_.around(z);
-    const Left part =
-        coating == nullptr
-            ? left(dielectric, albedo)
-            : left(dielectric, albedo, coating->transmittance_at_node(k), coating->deficit(z));
+    const Left part = coating == nullptr
+                          ? left(dielectric, albedo)
+                          : left(dielectric, albedo, coating->transmittance_at_node(k),
+                                 coating->deficit_at_node(k, albedo));
     sum.f1 += kTables.coating_weight[k] * part.f1;
     sum.diffuse += kTables.coating_weight[k] * part.diffuse;
   }

@@ -78,6 +78,10 @@ class Bsdf {
   [[nodiscard]] bool has_layers_above() const {
     return features_.layers == LayerSide::both || features_.layers == LayerSide::above;
   }
+  /// The lanes in which the coat may reflect light to wi.
+  [[nodiscard]] auto is_reached(const V& wi) const {
+    return wi.z > least_reflected_cosine(features_);
+  }
   [[nodiscard]] Evaluation<N> evaluate(const V& wi, const V& h) const;
   void spec_absorb(const V& wi, V& value) const;
   void add_sheen(const V& wi, const V& h, Evaluation<N>& e) const;
@@ -136,21 +140,21 @@ template <int N, class Parts>
 void Bsdf<N, Parts>::add_coat(const V& wi, const V& h, Evaluation<N>& e) const {
   const Frame<N>& frame = coating_->coat_frame();
   const V o = frame.to_local(wo_), i = frame.to_local(wi);
-  const auto has_coat = (coat_ != 0) & (wi.z > 0) & (o.z > 0) & (i.z > 0);
+  const auto has_coat = (coat_ != 0) & (o.z > 0) & (i.z > 0) & is_reached(wi);
   if (!any(has_coat)) return;
+  // The half vector of the base is that of the mirrored direction where wi is below its horizon.
+  const V half = any(wi.z < 0) ? select3(wi.z < 0, unit<N>(wo_ + wi), h) : h;
   const Ggx<N>& facets = coating_->coat();
-  const F d = facets.distribution(frame.to_local(h));
-  F value;
+  const F d = facets.distribution(frame.to_local(half));
+  F f;
   if (features_.is_spec) {
-    value = coating_->spec_coat_weight(wo_) * d * facets.spec_visibility(o, i) * wi.z;
+    f = coating_->spec_coat_weight(wo_) * d * facets.spec_visibility(o, i);
   } else {
-    const F reflected = Coating<N>::fresnel()(smaller_of(dot(wo_, h), all<N>(1))).x;
-    // Uses, for each direction, the smaller of its cosines with the shading normal and the coat's
-    // normal. This is reciprocal and never exceeds the coat's albedo.
-    const F cosines = wi.z * smaller_of(smaller_of(all<N>(1), F(i.z / wi.z)), F(o.z / wo_.z));
-    value = coat_ * reflected * d * facets.visibility(o.z, i.z) * cosines;
+    const F reflected = Coating<N>::fresnel()(smaller_of(dot(wo_, half), all<N>(1))).x;
+    f = coat_ * reflected * d * facets.visibility(o.z, i.z);
   }
-  e.value = select3(has_coat, V(e.value + all3<N>(value)), e.value);
+  // The cosine with the coat's own normal makes the coat independent of the base's normal.
+  e.value = select3(has_coat, V(e.value + all3<N>(f * i.z)), e.value);
   e.pdf = has_coat ? e.pdf + coat_probability_ * facets.reflected_pdf(o.z, d) : e.pdf;
 }
 
@@ -192,7 +196,7 @@ auto Bsdf<N, Parts>::sample(const Floats2<N>& u, const F& lobe) const -> Sample 
     const Frame<N>& frame = coating_->coat_frame();
     const V o = frame.to_local(wo_), h = coating_->coat().visible_normal(o, u);
     const V i = (2 * dot(o, h)) * h - o, coated = frame.to_world(i);
-    const auto is_above = (i.z > 0) & (coated.z > 0);
+    const auto is_above = (i.z > 0) & is_reached(coated);
     wi = select3(is_coat, select3(is_above, coated, all3<N>(0)), wi);
   }
   return {wi, evaluate(wi)};

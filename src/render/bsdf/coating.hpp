@@ -36,13 +36,14 @@ class Coating {
     const F one = all<N>(1);
     const F turn_cos = clamped(coat_weight_ > 0 ? surface.coat_normal.z : one, F{}, one);
     const F turn_sin = square_root<N>(1 - turn_cos * turn_cos);
+    is_turned_ = turn_sin > 0 ? one : F{};
+    alpha_ = larger_of(F(surface.roughness * surface.roughness), all<N>(1e-6F));
     for (int k = 0; k < kNodes; ++k) {
-      const float node = kTables.coating_node[k];
-      const F z = all<N>(node);
-      // The coat has its highest transmittance where the angle to its normal is smallest.
-      const F nearest = z * turn_cos + std::sqrt(1 - node * node) * turn_sin;
-      const F coat_z = z > turn_cos ? one : smaller_of(nearest, one);
-      node_transmittance_[k] = coat_transmittance(coat_z) * sheen_transmittance(z);
+      const F z = all<N>(kTables.coating_node[k]), through = sheen_transmittance(z);
+      const Around around = coat_around(z, turn_cos, turn_sin);
+      node_transmittance_[k] = around.mean * through;
+      const F slope = slope_at(z);
+      node_change_square_[k] = around.square * slope * slope;
     }
     // Reduces the tabulated deficit where it is too large: for anisotropic microfacets, and for
     // sheen peaks narrower than the spacing of the nodes.
@@ -61,7 +62,7 @@ class Coating {
 
   /// The transmittance of the coat, or of all layers, for a direction above the surface.
   [[nodiscard]] F coat_transmittance(const V& w) const {
-    return coat_transmittance(clamped(coat_frame_.to_local(w).z, F{}, all<N>(1)));
+    return coat_transmittance(smaller_of(magnitude(coat_frame_.to_local(w).z), all<N>(1)));
   }
   [[nodiscard]] F transmittance(const V& w) const {
     return coat_transmittance(w) * sheen_transmittance(w.z);
@@ -84,16 +85,40 @@ class Coating {
     return greatest_sheen_ > 0 ? left : all<N>(1);
   }
 
-  /// The energy deficit for light to or from z = cos(theta). It is the microfacets' albedo if all
-  /// directions had the transmittance of z, minus the actual albedo.
+  /// The energy deficit for light to or from z = cos(theta), below a coat with the shading normal.
+  /// It is the microfacets' albedo if all directions had the transmittance of z, minus the actual
+  /// albedo.
   [[nodiscard]] Albedo<N> deficit(const F& z) const {
     const Cell<N> cell(square_root<N>(z) * (kColumns - 1), kColumns);
     return {cell.mixed(picked<N>(deficit_f1_, cell.first), picked<N>(deficit_f1_ + 1, cell.first)),
             cell.mixed(picked<N>(deficit_schlick_, cell.first),
                        picked<N>(deficit_schlick_ + 1, cell.first))};
   }
+  /// The energy deficit for light to or from w, below any coat. `albedo` is that of the microfacets
+  /// for w.
+  [[nodiscard]] Albedo<N> deficit(const V& w, const Albedo<N>& albedo) const {
+    const Albedo<N> mean = deficit(w.z);
+    if (!any(is_turned_ > 0)) return mean;
+    const V opposite{-w.x, -w.y, w.z};
+    const F difference = coat_transmittance(w) - coat_transmittance(opposite);
+    // A fall counts twice, because a deficit that is too large would add energy.
+    const F change = slope_at(w.z) * (difference < 0 ? 2 * difference : difference);
+    return {larger_of(F(mean.f1 + change * albedo.f1), F{}),
+            larger_of(F(mean.schlick + change * albedo.schlick), F{})};
+  }
+  /// An upper bound of the mean of deficit() over the directions with the cosine of node k.
+  [[nodiscard]] Albedo<N> deficit_at_node(int k, const Albedo<N>& albedo) const {
+    const Albedo<N> mean = deficit(all<N>(kTables.coating_node[k]));
+    if (!any(is_turned_ > 0)) return mean;
+    // The mean of max(D + x, 0) over x of both signs is at most (D + sqrt(D^2 + mean of x^2)) / 2.
+    const auto changed = [&](const F& deficit, const F& reflected) {
+      const F square = deficit * deficit + node_change_square_[k] * reflected * reflected;
+      return is_turned_ > 0 ? 0.5F * (deficit + square_root<N>(square)) : deficit;
+    };
+    return {changed(mean.f1, albedo.f1), changed(mean.schlick, albedo.schlick)};
+  }
 
-  /// An upper bound of transmittance() at node k.
+  /// The mean of transmittance() over the directions with the cosine of node k.
   [[nodiscard]] const F& transmittance_at_node(int k) const { return node_transmittance_[k]; }
 
   [[nodiscard]] const SheenLobe<N>& sheen() const { return sheen_; }
@@ -103,7 +128,8 @@ class Coating {
 
  private:
   static constexpr int kNodes = kCoatingNodes, kColumns = kCoatingColumns;
-  static constexpr float kTurnLoss = 2;  // coats turned by 30 degrees are not compensated
+  // Of the tabulated deficit, this times the sine of the coat's turn is not compensated.
+  static constexpr float kTurnLoss = 0.5F;
 
   [[nodiscard]] F coat_transmittance(const F& z) const {
     if (less<N>(F{}, coat_weight_) == 0) return all<N>(1);
@@ -112,6 +138,32 @@ class Coating {
     const F left =
         1 - coat_weight_ * (schlick.f0.x * (albedo.f1 - albedo.schlick) + albedo.schlick);
     return coat_weight_ == 0 ? all<N>(1) : left;
+  }
+  /// How much the deficit for a direction with z = cos(theta) grows with the difference between its
+  /// transmittance and that of the opposite direction, for an albedo of 1. This approximates the
+  /// fraction of the light that microfacets reflect into directions of lower transmittance.
+  [[nodiscard]] F slope_at(const F& z) const {
+    return 0.2F * (2 - alpha_) * z / (z + alpha_) * sheen_transmittance(z);
+  }
+  /// The transmittance of the coat for the directions at z = cos(theta).
+  struct Around {
+    F mean;
+    F square;  ///< mean square of the difference between opposite directions
+  };
+  [[nodiscard]] Around coat_around(const F& z, const F& turn_cos, const F& turn_sin) const {
+    const F here = coat_transmittance(z);
+    if (!any(is_turned_ > 0)) return {here, F{}};
+    // Uses the azimuths of Gauss-Chebyshev quadrature.
+    constexpr float kAzimuths[] = {0.92387953F, 0.38268343F};
+    const F along = z * turn_cos, across = square_root<N>(1 - z * z) * turn_sin;
+    F sum{}, square{};
+    for (const float azimuth : kAzimuths) {
+      const F toward = coat_transmittance(smaller_of(F(along + azimuth * across), all<N>(1)));
+      const F away = coat_transmittance(magnitude(F(along - azimuth * across)));
+      sum += toward + away;
+      square += (toward - away) * (toward - away);
+    }
+    return {is_turned_ > 0 ? 0.25F * sum : here, is_turned_ * 0.5F * square};
   }
   [[nodiscard]] F mixed(const float* table, const Cell<N>& row, std::ptrdiff_t column) const {
     F upper{}, lower{};
@@ -128,7 +180,8 @@ class Coating {
   Ggx<N> coat_;
   GgxAlbedo<N> coat_albedo_;
   Frame<N> coat_frame_;
-  F node_transmittance_[kCoatingNodes];
+  F is_turned_, alpha_;
+  F node_transmittance_[kCoatingNodes], node_change_square_[kCoatingNodes];
   F deficit_f1_[kCoatingColumns], deficit_schlick_[kCoatingColumns];
 };
 

@@ -40,4 +40,11 @@ struct PlainFeatures {
   static constexpr LayerSide layers = LayerSide::none;
 };
 
+/// The cosine with the shading normal above which a surface reflects. The coat of an opaque surface
+/// may have another normal, so it also reflects to directions below the shading normal's horizon.
+template <class FeaturesType>
+constexpr float least_reflected_cosine(const FeaturesType& features) {
+  return features.layers != LayerSide::none && !features.transmits ? -1 : 0;
+}
+
 }  // namespace microtrace::bsdf

@@ -62,7 +62,8 @@ class Vertices {
   /// and the shading normal.
   [[nodiscard]] auto is_consistent(const V& wi, const F& local_z) const {
     const F cosine = dot(wi, outwards_);
-    if (!features_.transmits) return (local_z > 0) & (cosine > 0);
+    if (!features_.transmits)
+      return (local_z > bsdf::least_reflected_cosine(features_)) & (cosine > 0);
     return ((local_z > 0) & (cosine > 0)) | ((local_z < 0) & (cosine < 0));
   }
 

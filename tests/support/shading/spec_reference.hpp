@@ -25,9 +25,10 @@ class SpecReference {
   SpecReference(const Parameters& parameters, const Layers& layers, const DVec3& coat_normal)
       : p_(parameters), layers_(layers), nc_(coat_normal) {}
 
-  /// The BSDF times |N.L|.
+  /// The BSDF times |N.L|, where N is the coat's normal for the coat.
   [[nodiscard]] DVec3 value(const DVec3& v, const DVec3& l) const {
-    return coated(v, l) * std::abs(l.z);
+    const double weight = layers_.coat * schlick(DVec3(0.04F), 1, std::abs(dot(v, nc_))).x;
+    return glm::mix(under_sheen(v, l) * std::abs(l.z), DVec3(coat(v, l)), weight);
   }
 
  private:
@@ -146,11 +147,11 @@ class SpecReference {
     return scaled + color * d / ((1 + lambda(v.z, a) + lambda(l.z, a)) * 4 * v.z * l.z);
   }
 
-  // KHR_materials_clearcoat.
-  [[nodiscard]] DVec3 coated(const DVec3& v, const DVec3& l) const {
-    const double weight = layers_.coat * schlick(DVec3(0.04F), 1, std::abs(dot(v, nc_))).x;
-    const double coat = l.z > 0 ? specular_brdf(alpha(layers_.coat_roughness), nc_, v, l) : 0;
-    return glm::mix(under_sheen(v, l), DVec3(coat), weight);
+  // KHR_materials_clearcoat. Transmitting surfaces have the light of both sides on one side each.
+  [[nodiscard]] double coat(const DVec3& v, const DVec3& l) const {
+    const bool transmits = p_.transmission > 0 || p_.diffuse_transmission > 0;
+    if (transmits && l.z <= 0) return 0;
+    return specular_brdf(alpha(layers_.coat_roughness), nc_, v, l) * dot(nc_, l);
   }
 
   Parameters p_;
