@@ -57,8 +57,8 @@ TEST(CoatFurnace, CoatsWithTheirOwnNormal) {
     for (Parameters p : {kMetal, kWhite}) {
       for (const float roughness : {0.05F, 0.5F, 0.8F}) {
         p.roughness = roughness;
-        for (const Bounds& bounds : {Bounds{0.01, 0.998, 0.998}, Bounds{0.05, 0.997, 0.993},
-                                     Bounds{0.12, 0.996, 0.985}, Bounds{0.3, 0.991, 0.957}}) {
+        for (const Bounds& bounds : {Bounds{0.01, 0.998, 0.998}, Bounds{0.05, 0.998, 0.995},
+                                     Bounds{0.12, 0.997, 0.990}, Bounds{0.3, 0.996, 0.976}}) {
           const TurnedAlbedo albedo = albedo_under_turned_coat(layers, p, bounds.angle);
           const std::string place = std::to_string(bounds.angle) + ' ' +
                                     std::to_string(coat_roughness) + ' ' +

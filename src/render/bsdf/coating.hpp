@@ -42,8 +42,9 @@ class Coating {
       const F z = all<N>(kTables.coating_node[k]), through = sheen_transmittance(z);
       const Around around = coat_around(z, turn_cos, turn_sin);
       node_transmittance_[k] = around.mean * through;
-      const F slope = slope_at(z);
-      node_change_square_[k] = around.square * slope * slope;
+      const Slopes slopes = slopes_at(z);
+      node_change_square_[k] = around.square * slopes.least * slopes.least;
+      node_rise_[k] = (slopes.rise - slopes.least) * square_root<N>(around.square);
     }
     // Reduces the tabulated deficit where it is too large: for anisotropic microfacets, and for
     // sheen peaks narrower than the spacing of the nodes.
@@ -102,7 +103,8 @@ class Coating {
     const V opposite{-w.x, -w.y, w.z};
     const F difference = coat_transmittance(w) - coat_transmittance(opposite);
     // A fall counts twice, because a deficit that is too large would add energy.
-    const F change = slope_at(w.z) * (difference < 0 ? 2 * difference : difference);
+    const Slopes slopes = slopes_at(w.z);
+    const F change = difference * (difference < 0 ? 2 * slopes.least : slopes.rise);
     return {larger_of(F(mean.f1 + change * albedo.f1), F{}),
             larger_of(F(mean.schlick + change * albedo.schlick), F{})};
   }
@@ -110,10 +112,11 @@ class Coating {
   [[nodiscard]] Albedo<N> deficit_at_node(int k, const Albedo<N>& albedo) const {
     const Albedo<N> mean = deficit(all<N>(kTables.coating_node[k]));
     if (!any(is_turned_ > 0)) return mean;
-    // The mean of max(D + x, 0) over x of both signs is at most (D + sqrt(D^2 + mean of x^2)) / 2.
+    // See docs/derivations.md, "Turned coats".
     const auto changed = [&](const F& deficit, const F& reflected) {
       const F square = deficit * deficit + node_change_square_[k] * reflected * reflected;
-      return is_turned_ > 0 ? 0.5F * (deficit + square_root<N>(square)) : deficit;
+      const F rise = node_rise_[k] * reflected;
+      return is_turned_ > 0 ? 0.5F * (deficit + square_root<N>(square) + rise) : deficit;
     };
     return {changed(mean.f1, albedo.f1), changed(mean.schlick, albedo.schlick)};
   }
@@ -142,8 +145,15 @@ class Coating {
   /// How much the deficit for a direction with z = cos(theta) grows with the difference between its
   /// transmittance and that of the opposite direction, for an albedo of 1. This approximates the
   /// fraction of the light that microfacets reflect into directions of lower transmittance.
-  [[nodiscard]] F slope_at(const F& z) const {
-    return 0.2F * (2 - alpha_) * z / (z + alpha_) * sheen_transmittance(z);
+  struct Slopes {
+    F least;  ///< for small differences
+    F rise;   ///< for positive differences; 1 for smooth facets, which reflect into one direction
+  };
+  [[nodiscard]] Slopes slopes_at(const F& z) const {
+    const F least = 0.2F * (2 - alpha_) * z / (z + alpha_), square = z * z;
+    const F smooth = square / (square + 25 * alpha_ * alpha_);
+    const F through = sheen_transmittance(z);
+    return {least * through, (least + (1 - least) * smooth) * through};
   }
   /// The transmittance of the coat for the directions at z = cos(theta).
   struct Around {
@@ -181,7 +191,8 @@ class Coating {
   GgxAlbedo<N> coat_albedo_;
   Frame<N> coat_frame_;
   F is_turned_, alpha_;
-  F node_transmittance_[kCoatingNodes], node_change_square_[kCoatingNodes];
+  F node_transmittance_[kCoatingNodes];
+  F node_change_square_[kCoatingNodes], node_rise_[kCoatingNodes];
   F deficit_f1_[kCoatingColumns], deficit_schlick_[kCoatingColumns];
 };
 
