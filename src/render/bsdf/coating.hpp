@@ -42,6 +42,7 @@ class Coating {
       const F z = all<N>(kTables.coating_node[k]), through = sheen_transmittance(z);
       const Around around = coat_around(z, turn_cos, turn_sin);
       node_transmittance_[k] = around.mean * through;
+      if (!any(is_turned_ > 0)) continue;
       const Slopes slopes = slopes_at(z);
       node_change_square_[k] = around.square * slopes.least * slopes.least;
       node_rise_[k] = (slopes.rise - slopes.least) * square_root<N>(around.square);

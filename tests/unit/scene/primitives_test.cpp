@@ -89,7 +89,9 @@ TEST(Primitives, FindsTheObjectOfEachPrimitiveOfRuns) {
     ASSERT_EQ(primitives.end_id_of(object), expected.end_id_of(object));
     const auto triangle = primitives.triangle(id), same = expected.triangle(id);
     ASSERT_EQ(triangle.has_value(), same.has_value());
-    if (triangle) ASSERT_EQ(triangle->a, same->a);
+    if (triangle) {
+      ASSERT_EQ(triangle->a, same->a);
+    }
   }
 }
 
