@@ -7,7 +7,6 @@
 #include "render/bsdf/surface.hpp"
 #include "simd/gather.hpp"
 
-#include <cmath>
 #include <cstddef>
 
 namespace microtrace::bsdf {
