@@ -1,6 +1,7 @@
 #include "render/sampling/sobol.hpp"
 #include "support/pi.hpp"
 #include "support/shading/direction_pdf.hpp"
+#include "support/shading/furnace.hpp"
 #include "support/shading/scattering.hpp"
 
 #include <cmath>
@@ -13,17 +14,6 @@
 
 namespace microtrace::bsdf {
 namespace {
-
-/// Estimates the directional albedo for wo by sampling.
-template <class Model>
-DVec3 reflected(const Model& bsdf, std::uint32_t samples) {
-  DVec3 sum(0);
-  for (std::uint32_t k = 0; k < samples; ++k) {
-    const sampling::Sobol sobol(7, k);
-    if (const auto s = bsdf.sample(sobol.pair(0), sobol.one(1))) sum += DVec3(s->weight);
-  }
-  return sum / double(samples);
-}
 
 /// Computes the directional albedo by the midpoint rule, without sampling.
 DVec3 integrated(const Scattering& bsdf, int steps) {
@@ -42,7 +32,7 @@ TEST(Bsdf, WhiteMetalConservesEnergy) {
     for (const double theta : {0.0, 0.4, 0.8, 1.1, 1.4}) {
       const Scattering bsdf({.base_color = Vec3(1), .metallic = 1, .roughness = roughness},
                             direction(theta));
-      EXPECT_NEAR(reflected(bsdf, 1U << 14U).x, 1, 0.003) << roughness << ' ' << theta;
+      EXPECT_NEAR(sampled_albedo(bsdf, 1U << 14U).x, 1, 0.003) << roughness << ' ' << theta;
     }
   }
 }
@@ -54,7 +44,7 @@ TEST(Bsdf, SamplerAndQuadratureAgree) {
         const Scattering bsdf(
             {.base_color = {0.9F, 0.5F, 0.1F}, .metallic = metallic, .roughness = roughness},
             direction(theta));
-        const DVec3 a = reflected(bsdf, 1U << 14U), b = integrated(bsdf, 300);
+        const DVec3 a = sampled_albedo(bsdf, 1U << 14U), b = integrated(bsdf, 300);
         for (int c = 0; c < 3; ++c)
           EXPECT_NEAR(a[c], b[c], 0.004) << roughness << ' ' << metallic << ' ' << theta;
       }
@@ -105,7 +95,7 @@ TEST(Bsdf, WhiteDielectricConservesEnergy) {
     for (const double theta : {0.0, 0.6, 1.2, 1.5}) {
       const Scattering bsdf({.base_color = Vec3(1), .metallic = 0, .roughness = roughness},
                             direction(theta));
-      EXPECT_NEAR(reflected(bsdf, 1U << 14U).x, 1, 0.003) << roughness << ' ' << theta;
+      EXPECT_NEAR(sampled_albedo(bsdf, 1U << 14U).x, 1, 0.003) << roughness << ' ' << theta;
     }
   }
 }
@@ -116,7 +106,7 @@ TEST(Bsdf, NeverGainsEnergy) {
       for (const double theta : {0.0, 0.6, 1.2, 1.5}) {
         const Scattering bsdf({.base_color = Vec3(1), .metallic = metallic, .roughness = roughness},
                               direction(theta));
-        EXPECT_LE(reflected(bsdf, 1U << 13U).x, 1.004)
+        EXPECT_LE(sampled_albedo(bsdf, 1U << 13U).x, 1.004)
             << roughness << ' ' << metallic << ' ' << theta;
       }
     }
@@ -190,7 +180,7 @@ TEST(Bsdf, HalfGlassGainsNoEnergy) {
                            .dielectric = {.f0 = Vec3(f0)},
                            .transmission = 0.5F,
                            .eta = eta};
-        const double sum = reflected(Scattering(p, direction(theta)), 1U << 14U).x;
+        const double sum = sampled_albedo(Scattering(p, direction(theta)), 1U << 14U).x;
         EXPECT_LE(sum, 1.006) << roughness << ' ' << eta << ' ' << theta;
         EXPECT_GE(sum, 0.5) << roughness << ' ' << eta << ' ' << theta;
       }

@@ -265,7 +265,8 @@ auto BaseBsdf<N, Parts>::left(const Coating<N>* coating, const V& w) const -> Le
   const Albedo<N> albedo = albedo_.at(w);
   const GreatestSchlick<N> dielectric = dielectric_at(w.z);
   if (coating == nullptr) return left(dielectric, albedo);
-  return left(dielectric, albedo, coating->transmittance(w), coating->deficit(w, albedo));
+  const F transmittance = coating->transmittance(w);
+  return left(dielectric, albedo, transmittance, coating->deficit(w, transmittance, albedo));
 }
 
 template <int N, class Parts>

@@ -34,17 +34,20 @@ class Coating {
     // The cosine and sine of the angle between the coat's normal and the shading normal.
     const F one = all<N>(1);
     const F turn_cos = clamped(coat_weight_ > 0 ? surface.coat_normal.z : one, F{}, one);
-    const F turn_sin = square_root<N>(1 - turn_cos * turn_cos);
-    is_turned_ = turn_sin > 0 ? one : F{};
+    turn_sin_ = square_root<N>(1 - turn_cos * turn_cos);
     alpha_ = larger_of(F(surface.roughness * surface.roughness), all<N>(1e-6F));
     for (int k = 0; k < kNodes; ++k) {
       const F z = all<N>(kTables.coating_node[k]), through = sheen_transmittance(z);
-      const Around around = coat_around(z, turn_cos, turn_sin);
+      if (!any(turn_sin_ > 0)) {
+        node_transmittance_[k] = coat_transmittance(z) * through;
+        continue;
+      }
+      const Around around = coat_around(z, turn_cos);
       node_transmittance_[k] = around.mean * through;
-      if (!any(is_turned_ > 0)) continue;
       const Slopes slopes = slopes_at(z);
-      node_change_square_[k] = around.square * slopes.least * slopes.least;
-      node_rise_[k] = (slopes.rise - slopes.least) * square_root<N>(around.square);
+      const F least = slopes.least * through;
+      node_change_square_[k] = around.square * least * least;
+      node_rise_[k] = (slopes.rise * through - least) * square_root<N>(around.square);
     }
     // Reduces the tabulated deficit where it is too large: for anisotropic microfacets, and for
     // sheen peaks narrower than the spacing of the nodes.
@@ -52,7 +55,7 @@ class Coating {
     const F wide = clamped(F(5 * surface.sheen_roughness - 0.25F), F{}, one);
     trust = greatest_sheen_ > 0 ? trust * wide : trust;
     // The tables assume a coat with the shading normal.
-    trust = trust * larger_of(F(1 - kTurnLoss * turn_sin), F{});
+    trust = trust * larger_of(F(1 - kTurnLoss * turn_sin_), F{});
     const int rows = kCoatingRows;
     const Cell<N> row(square_root<N>(surface.roughness) * static_cast<float>(rows - 1), rows);
     for (int i = 0; i < kColumns; ++i) {
@@ -95,13 +98,13 @@ class Coating {
             cell.mixed(picked<N>(deficit_schlick_, cell.first),
                        picked<N>(deficit_schlick_ + 1, cell.first))};
   }
-  /// The energy deficit for light to or from w, below any coat. `albedo` is that of the microfacets
-  /// for w.
-  [[nodiscard]] Albedo<N> deficit(const V& w, const Albedo<N>& albedo) const {
+  /// The energy deficit for light to or from w, below any coat. `transmittance` is that of the
+  /// layers for w, and `albedo` that of the microfacets.
+  [[nodiscard]] Albedo<N> deficit(const V& w, const F& transmittance,
+                                  const Albedo<N>& albedo) const {
     const Albedo<N> mean = deficit(w.z);
-    if (!any(is_turned_ > 0)) return mean;
-    const V opposite{-w.x, -w.y, w.z};
-    const F difference = coat_transmittance(w) - coat_transmittance(opposite);
+    if (!any(turn_sin_ > 0)) return mean;
+    const F difference = transmittance - this->transmittance(V{-w.x, -w.y, w.z});
     // A fall counts twice, because a deficit that is too large would add energy.
     const Slopes slopes = slopes_at(w.z);
     const F change = difference * (difference < 0 ? 2 * slopes.least : slopes.rise);
@@ -111,12 +114,12 @@ class Coating {
   /// An upper bound of the mean of deficit() over the directions with the cosine of node k.
   [[nodiscard]] Albedo<N> deficit_at_node(int k, const Albedo<N>& albedo) const {
     const Albedo<N> mean = deficit(all<N>(kTables.coating_node[k]));
-    if (!any(is_turned_ > 0)) return mean;
+    if (!any(turn_sin_ > 0)) return mean;
     // See docs/derivations.md, "Turned coats".
     const auto changed = [&](const F& deficit, const F& reflected) {
       const F square = deficit * deficit + node_change_square_[k] * reflected * reflected;
       const F rise = node_rise_[k] * reflected;
-      return is_turned_ > 0 ? 0.5F * (deficit + square_root<N>(square) + rise) : deficit;
+      return turn_sin_ > 0 ? 0.5F * (deficit + square_root<N>(square) + rise) : deficit;
     };
     return {changed(mean.f1, albedo.f1), changed(mean.schlick, albedo.schlick)};
   }
@@ -152,20 +155,18 @@ class Coating {
   [[nodiscard]] Slopes slopes_at(const F& z) const {
     const F least = 0.2F * (2 - alpha_) * z / (z + alpha_), square = z * z;
     const F smooth = square / (square + 25 * alpha_ * alpha_);
-    const F through = sheen_transmittance(z);
-    return {least * through, (least + (1 - least) * smooth) * through};
+    return {least, least + (1 - least) * smooth};
   }
   /// The transmittance of the coat for the directions at z = cos(theta).
   struct Around {
     F mean;
     F square;  ///< mean square of the difference between opposite directions
   };
-  [[nodiscard]] Around coat_around(const F& z, const F& turn_cos, const F& turn_sin) const {
-    const F here = coat_transmittance(z);
-    if (!any(is_turned_ > 0)) return {here, F{}};
-    // Uses the azimuths of Gauss-Chebyshev quadrature.
+  [[nodiscard]] Around coat_around(const F& z, const F& turn_cos) const {
+    // Uses the azimuths of Gauss-Chebyshev quadrature. Where the coat isn't turned, all four
+    // transmittances are equal, and so is their mean.
     constexpr float kAzimuths[] = {0.92387953F, 0.38268343F};
-    const F along = z * turn_cos, across = square_root<N>(1 - z * z) * turn_sin;
+    const F along = z * turn_cos, across = square_root<N>(1 - z * z) * turn_sin_;
     F sum{}, square{};
     for (const float azimuth : kAzimuths) {
       const F toward = coat_transmittance(smaller_of(F(along + azimuth * across), all<N>(1)));
@@ -173,7 +174,7 @@ class Coating {
       sum += toward + away;
       square += (toward - away) * (toward - away);
     }
-    return {is_turned_ > 0 ? 0.25F * sum : here, is_turned_ * 0.5F * square};
+    return {0.25F * sum, 0.5F * square};
   }
   [[nodiscard]] F mixed(const float* table, const Cell<N>& row, std::ptrdiff_t column) const {
     F upper{}, lower{};
@@ -190,7 +191,7 @@ class Coating {
   Ggx<N> coat_;
   GgxAlbedo<N> coat_albedo_;
   Frame<N> coat_frame_;
-  F is_turned_, alpha_;
+  F turn_sin_, alpha_;
   F node_transmittance_[kCoatingNodes];
   F node_change_square_[kCoatingNodes], node_rise_[kCoatingNodes];
   F deficit_f1_[kCoatingColumns], deficit_schlick_[kCoatingColumns];

@@ -13,8 +13,9 @@
 
 namespace microtrace::bsdf {
 
-/// Estimates the directional albedo.
-inline DVec3 sampled_albedo(const Scattering& bsdf, std::uint32_t samples) {
+/// Estimates the directional albedo of a BSDF for the wo with which it was made.
+template <class Model>
+DVec3 sampled_albedo(const Model& bsdf, std::uint32_t samples) {
   DVec3 sum(0);
   for (std::uint32_t k = 0; k < samples; ++k) {
     const sampling::Sobol sobol(7, k);
