@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Builds the program with another compiler and without optimization. Checks that every build gives the same outputs for
-questions.txt, with every instruction set and any number of threads.
+"""Checks that builds by other compilers give the same outputs for questions.txt as a program, with every instruction set and
+different numbers of threads.
 
-usage: same_bits.py PROGRAM SOURCE_FOLDER BUILD_FOLDER [--long]
+usage: same_bits.py PROGRAM OTHER_PROGRAM
+       same_bits.py PROGRAM --build SOURCE_FOLDER BUILD_FOLDER
 
-By default, one other build is made, by Clang at -O0. It differs in the order of evaluation and in contractions, has no
-optimizations, and takes the least time to build. --long makes all builds that are listed below.
+The second form makes all builds that are listed below.
 """
 
 import itertools
@@ -17,11 +17,10 @@ from pathlib import Path
 
 import questions
 
-PROGRAM, SOURCE, FOLDER = os.path.abspath(sys.argv[1]), Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
 ISAS = ["portable", "avx2", "avx512"]  # an instruction set that the machine lacks falls back to portable
 THREADS = [1, 2, 7]
-VARIANTS = {"clang-O0": ("clang++", "-O0")}
-LONG_VARIANTS = {
+VARIANTS = {
+    "clang-O0": ("clang++", "-O0"),
     "gcc-O0": ("g++", "-O0"),
     "gcc-O1": ("g++", "-O1 -DNDEBUG"),
     "gcc-O2": ("g++", "-O2 -DNDEBUG"),
@@ -31,10 +30,9 @@ LONG_VARIANTS = {
 }
 
 
-def build(name, compiler, flags):
+def build(source, folder, compiler, flags):
     """Returns the program of a build. Also builds the modules that the questions need."""
-    folder = FOLDER / name
-    subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}",
+    subprocess.run(["cmake", "-S", source, "-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}",
                     "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={flags}",
                     "-DMICROTRACE_BUILD_TESTS=OFF", "-DMICROTRACE_BUILD_BENCHMARKS=OFF", "-DMICROTRACE_UNITY=ON",
                     *(f"-DMICROTRACE_WITH_{module}=OFF" for module in ("OPENIMAGEIO", "DRACO"))],
@@ -45,14 +43,20 @@ def build(name, compiler, flags):
     return folder / "src/cli/microtrace"
 
 
-def main():
-    is_long = "--long" in sys.argv[4:]
-    variants = VARIANTS | (LONG_VARIANTS if is_long else {})
-    os.environ.pop("MICROTRACE_MODULE_PATH", None)  # each build must use its own modules
-    for compiler in {compiler for compiler, _ in variants.values()}:
+def build_all(source, parent):
+    """Returns the programs of all builds by name."""
+    for compiler in {compiler for compiler, _ in VARIANTS.values()}:
         if not shutil.which(compiler):
             sys.exit(f"{compiler} is not installed; ./test installs it")
-    programs = {"this build": PROGRAM} | {name: build(name, *how) for name, how in variants.items()}
+    return {name: build(source, parent / name, *how) for name, how in VARIANTS.items()}
+
+
+def main():
+    os.environ.pop("MICROTRACE_MODULE_PATH", None)  # each build must use its own modules
+    program, other, *folders = sys.argv[1:]
+    is_long = other == "--build"
+    others = build_all(*map(Path, folders)) if is_long else {"the other build": other}
+    programs = {name: os.path.abspath(path) for name, path in ({"this build": program} | others).items()}
     everything = list(itertools.product(ISAS, THREADS))
     few = [("portable", 1), ("avx512", 2), ("avx2", 7)]
     differing = 0

@@ -2,7 +2,7 @@
 #   SOURCE   the project
 #   BUILD    the folder
 #   PRESET   fuzz or tsan
-#   LEVEL    the level of optimization, such as -O1
+#   OPTIONS  further options of CMake
 #   TARGETS  the targets
 cmake_minimum_required(VERSION 3.25)
 
@@ -14,8 +14,5 @@ function(run)
   endif()
 endfunction()
 
-# Omits the presets' line numbers (-g1), an eighth of the time, and all but the portable kernels, another eighth. A failure
-# happens again in a build of the preset itself. Suites under the address sanitizer run all kernels.
-run(${CMAKE_COMMAND} --preset ${PRESET} -B ${BUILD} "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=${LEVEL} -DNDEBUG"
-  -DMICROTRACE_WITH_AVX=OFF)
+run(${CMAKE_COMMAND} --preset ${PRESET} -B ${BUILD} ${OPTIONS})
 run(${CMAKE_COMMAND} --build ${BUILD} --target ${TARGETS})
