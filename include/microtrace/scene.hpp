@@ -52,5 +52,7 @@ struct Scene {
 
 /// Returns the number of PrimitiveIds that a shape has.
 [[nodiscard]] MICROTRACE_EXPORT std::size_t primitive_count(const Shape& shape);
+/// Returns the number of PrimitiveIds that all objects of a run have.
+[[nodiscard]] MICROTRACE_EXPORT std::size_t primitive_count(const ObjectRun& run);
 
 }  // namespace microtrace

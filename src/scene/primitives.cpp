@@ -17,7 +17,7 @@ Primitives::Primitives(const Scene& scene)
   first_ids_.reserve(scene.objects.runs().size() + 1);
   for (const ObjectRun& run : scene.objects.runs()) {
     first_ids_.push_back(count_);
-    const std::uint64_t more = std::uint64_t{primitive_count(run.first->shape)} * run.count;
+    const std::uint64_t more = primitive_count(run);
     if (more > std::numeric_limits<PrimitiveId>::max() - count_)
       throw Error(ErrorKind::limit, "", "the scene has 2^32 primitives or more");
     count_ += static_cast<PrimitiveId>(more);

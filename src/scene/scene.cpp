@@ -12,4 +12,8 @@ std::size_t primitive_count(const Shape& shape) {
   return mesh != nullptr ? mesh->triangles.size() : 1;
 }
 
+std::size_t primitive_count(const ObjectRun& run) {
+  return run.count * primitive_count(run.first->shape);
+}
+
 }  // namespace microtrace

@@ -57,8 +57,7 @@ bool reports_files(const Arguments& arguments) {
 /// Rays take about 500 ns per sample, half of it in the tree.
 double max_cost_growth_of(const Scene& scene, ImageSize size, std::uint32_t samples) {
   std::size_t primitives = 0;
-  for (const ObjectRun& run : scene.objects.runs())
-    primitives += run.count * primitive_count(run.first->shape);
+  for (const ObjectRun& run : scene.objects.runs()) primitives += primitive_count(run);
   const auto pixels = static_cast<double>(std::uint64_t{size.width} * size.height);
   return 1 + std::min(1.0, static_cast<double>(primitives) / (pixels * samples));
 }

@@ -20,7 +20,7 @@ void print_info(const std::string& text) {
 std::string primitives_text(const Scene& scene) {
   std::size_t triangles = 0, segments = 0, others = 0;
   for (const ObjectRun& run : scene.objects.runs()) {
-    const std::size_t count = run.count * primitive_count(run.first->shape);
+    const std::size_t count = primitive_count(run);
     if (const PlacedMesh mesh = run.mesh(0)) {
       triangles += count;
       segments += mesh.arrays->segments.size();

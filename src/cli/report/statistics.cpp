@@ -72,7 +72,7 @@ void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
   if (kind == Statistics::none) return;
   std::size_t primitives = 0;
   for (const ObjectRun& run : scene.objects.runs()) {
-    primitives += run.count * primitive_count(run.first->shape);
+    primitives += primitive_count(run);
     // A segment is rendered as two triangles.
     if (const PlacedMesh mesh = run.mesh(0)) primitives += 2 * mesh.arrays->segments.size();
   }

@@ -1,9 +1,10 @@
 #pragma once
+#include "render/primitive_set.hpp"
+
 #include <microtrace/primitives.hpp>
 #include <microtrace/scene.hpp>
 
 #include <cstdint>
-#include <vector>
 
 namespace microtrace {
 
@@ -13,10 +14,10 @@ class HiddenBacks {
   HiddenBacks(const Scene& scene, const Primitives& primitives);
 
   /// One bit per primitive, or null if there are none.
-  [[nodiscard]] const std::uint32_t* bits() const { return bits_.empty() ? nullptr : bits_.data(); }
+  [[nodiscard]] const std::uint32_t* bits() const { return triangles_.bits(); }
 
  private:
-  std::vector<std::uint32_t> bits_;
+  PrimitiveSet triangles_;
 };
 
 }  // namespace microtrace

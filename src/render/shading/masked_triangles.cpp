@@ -1,6 +1,5 @@
 /// The triangles that rays pass through in places because of their alpha.
 
-#include "base/memory_account.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/shading/hit_lanes.hpp"
 #include "render/shading/shading.hpp"
@@ -8,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include <glm/geometric.hpp>
 
@@ -22,22 +20,19 @@ void Shading::find_masked() {
     if (entry.mesh == nullptr || material.alpha_mode == AlphaMode::opaque ||
         encloses_medium(material))
       continue;
-    if (masked_.empty()) {
-      take_memory(primitives_.count() / 8, "the transparent surfaces of the scene");
-      masked_.resize(bit_set_size(primitives_.count()));
-    }
     const bool blended = blends(looks_[entry.look]);
     has_blended_ |= blended;
     for_each_mesh(run, [&](const PlacedMesh& mesh, PrimitiveId first_id) {
       std::size_t& first_map = entry.first_map_of(mesh);
       if (first_map == kNoMap) first_map = opacity_.add(mesh, looks_[entry.look]);
-      for (std::size_t i = 0; i < mesh.arrays->triangles.size(); ++i)
+      for (std::size_t i = 0; i < mesh.arrays->triangles.size(); ++i) {
+        const PrimitiveId id = first_id + static_cast<PrimitiveId>(i);
         if (blended || opacity_.everywhere(first_map + i) != Opacity::visible)
-          insert(masked_.data(), first_id + static_cast<PrimitiveId>(i));
+          masked_.insert(id, id + 1);
+      }
     });
   }
   opacity_.finish();
-  if (std::ranges::count(masked_, 0U) == std::ssize(masked_)) masked_.clear();
 }
 
 /// A ray's point in the plane of a masked triangle.

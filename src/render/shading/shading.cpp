@@ -1,6 +1,5 @@
 #include "render/shading/shading.hpp"
 
-#include "base/memory_account.hpp"
 #include "render/bsdf/base_surface.hpp"
 #include "render/luminance.hpp"
 #include "render/shading/texture_slots.hpp"
@@ -87,7 +86,10 @@ void TexturedMaterial::fetch(const TexelAddress<1>& address) const {
 }
 
 Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables)
-    : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene, tables)) {
+    : primitives_(primitives),
+      maps_(std::make_unique<TextureMaps>(scene, tables)),
+      open_fronts_(primitives, "the one-sided surfaces of the scene"),
+      masked_(primitives, "the transparent surfaces of the scene") {
   const auto add = [&](const Material& material) {
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
     look.has_constant_emission = look[MaterialTexture::emissive].map == nullptr &&
@@ -152,9 +154,6 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
 }
 
 void Shading::find_open_fronts() {
-  const std::size_t count = primitives_.count();
-  take_memory(count / 8, "the one-sided surfaces of the scene");
-  open_fronts_.resize(bit_set_size(count));
   for (std::size_t run = 0; run < entries_.size(); ++run) {
     const Entry& entry = entries_[run];
     if (!looks_[entry.look].has_open_back) continue;
@@ -162,7 +161,7 @@ void Shading::find_open_fronts() {
       open_fronts_.clear();
       return;
     }
-    insert(open_fronts_.data(), entry.first_id, primitives_.first_id_of_run(run + 1));
+    open_fronts_.insert(entry.first_id, primitives_.first_id_of_run(run + 1));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "accel/kernels/kernel.hpp"
 #include "base/bit_set.hpp"
 #include "render/kernels/kernel.hpp"
+#include "render/primitive_set.hpp"
 #include "render/shading/flat_triangles.hpp"
 #include "render/shading/footprint.hpp"
 #include "render/shading/opacity_maps.hpp"
@@ -90,9 +91,7 @@ class Shading {
 
   /// The triangles with open backs, one bit per primitive. Null if there are none, or if other
   /// primitives have open backs.
-  [[nodiscard]] const std::uint32_t* open_fronts() const {
-    return open_fronts_.empty() ? nullptr : open_fronts_.data();
-  }
+  [[nodiscard]] const std::uint32_t* open_fronts() const { return open_fronts_.bits(); }
   /// True if the primitive blocks all light that doesn't arrive through an open back.
   [[nodiscard]] bool is_opaque(PrimitiveId id) const { return all_cover_ || look_of(id).is_opaque; }
   /// True if the primitive may be emissive.
@@ -105,9 +104,7 @@ class Shading {
 
   /// The triangles on which is_transparent() may be true, and all for which is_blended() is, one
   /// bit per primitive; null if there are none.
-  [[nodiscard]] const std::uint32_t* masked() const {
-    return masked_.empty() ? nullptr : masked_.data();
-  }
+  [[nodiscard]] const std::uint32_t* masked() const { return masked_.bits(); }
   [[nodiscard]] bool is_masked(PrimitiveId id) const { return is_in(masked(), id); }
   /// Whether one of these triangles has opacity at these weights, if that is known.
   [[nodiscard]] Visible known_visible(PrimitiveId id, const HitWeights& at) const;
@@ -229,7 +226,7 @@ class Shading {
   std::vector<TexturedMaterial> looks_;
   std::vector<Entry> entries_;  // by run of objects
   FlatTriangles flat_triangles_;
-  std::vector<std::uint32_t> open_fronts_, masked_;
+  PrimitiveSet open_fronts_, masked_;
   OpacityMaps opacity_;
   bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false, has_blended_ = false;
 };
