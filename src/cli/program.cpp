@@ -10,6 +10,7 @@
 #include "cli/options/completion.hpp"
 #include "cli/options/help.hpp"
 #include "cli/options/parse.hpp"
+#include "cli/options/usage_error.hpp"
 #include "cli/pictures/render_pictures.hpp"
 #include "cli/report/standard_output.hpp"
 #include "cli/signals.hpp"
@@ -124,6 +125,10 @@ int cli::run_program(int argc, char** argv) {
   for (const NamedCommand& named : kNamedCommands) {
     if (argc > 1 && argv[1] == cli::name_of(named.command))
       return run_command(named, argc - 1, argv + 1);
+  }
+  if (argc > 1) {
+    if (const auto complaint = cli::complaint_about_command(argv[1]))
+      return cli::report_usage_error(cli::Command::render, *complaint);
   }
   return run_command({cli::Command::render, cli::render_pictures}, argc, argv);
 }

@@ -407,6 +407,18 @@ class CommandLine(ProgramTest):
         for quiet in (["-q", "-o", "a.png"], ["-o", "-"]):
             self.assertEqual(self.run_program(SCENE, "--size", "20x10", *quiet).stderr, b"", quiet)
 
+    def test_mistyped_commands_suggest_the_nearest_one(self):
+        (self.folder / "marge").write_bytes(b"{}")
+        for words, message in ((["vieww", "a.glb"], 'unknown command "vieww"; did you mean view?'),
+                               (["datset"], 'unknown command "datset"; did you mean dataset?'),
+                               (["mergee", "a", "b", "--weights"], 'unknown command "mergee"; did you mean merge?'),
+                               (["render", "a.glb"], 'unknown command "render"; to render, name only the scene'),
+                               (["marge", "a"], 'unexpected argument "a"'),
+                               (["lamp", "a"], 'unexpected argument "a"')):
+            result = self.run_program(*words)
+            self.assertEqual((result.returncode, result.stderr.decode()),
+                             (2, f"error: {message}\nRun microtrace --help for the options.\n"))
+
     def test_mistyped_options_suggest_the_nearest_one(self):
         for wrong, right in (("--smaples", "--samples"), ("--smaples=4", "--samples"), ("--treads", "--threads"),
                              ("--outptu", "--output")):

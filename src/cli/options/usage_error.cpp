@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <CLI/App.hpp>
@@ -111,6 +113,18 @@ std::string message_of(Command command, const CLI::App& app, const CLI::ParseErr
   if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
     text.replace(text.find(excludes), excludes.size(), " can't be combined with ");
   return printable(text);
+}
+
+std::optional<std::string> complaint_about_command(const std::string& word) {
+  std::error_code error;
+  if (word.starts_with('-') || std::filesystem::exists(word, error)) return std::nullopt;
+  std::array<std::string_view, kCommands.size()> names;
+  std::ranges::transform(kCommands, names.begin(), name_of);
+  const std::string_view nearest = nearest_name(word, names);
+  if (nearest.empty()) return std::nullopt;
+  std::string message = "unknown command " + in_quotes(word);
+  if (nearest == name_of(Command::render)) return message + "; to render, name only the scene";
+  return message.append("; did you mean ").append(nearest).append("?");
 }
 
 int report_usage_error(Command command, const std::string& message) {
