@@ -15,18 +15,6 @@
 namespace microtrace::bsdf {
 namespace {
 
-/// Computes the directional albedo by the midpoint rule, without sampling.
-DVec3 integrated(const Scattering& bsdf, int steps) {
-  DVec3 sum(0);
-  for (int i = 0; i < steps; ++i) {
-    for (int j = 0; j < 2 * steps; ++j) {
-      const double theta = (i + 0.5) / steps * kPi / 2, phi = (j + 0.5) / steps * kPi;
-      sum += DVec3(bsdf.evaluate(direction(theta, phi)).value) * std::sin(theta);
-    }
-  }
-  return sum * (kPi / 2 / steps) * (kPi / steps);
-}
-
 TEST(Bsdf, WhiteMetalConservesEnergy) {
   for (const float roughness : {0.05F, 0.2F, 0.35F, 0.5F, 0.7F, 0.85F, 1.0F}) {
     for (const double theta : {0.0, 0.4, 0.8, 1.1, 1.4}) {
@@ -44,7 +32,7 @@ TEST(Bsdf, SamplerAndQuadratureAgree) {
         const Scattering bsdf(
             {.base_color = {0.9F, 0.5F, 0.1F}, .metallic = metallic, .roughness = roughness},
             direction(theta));
-        const DVec3 a = sampled_albedo(bsdf, 1U << 14U), b = integrated(bsdf, 300);
+        const DVec3 a = sampled_albedo(bsdf, 1U << 14U), b = integrated_albedo(bsdf, 300);
         for (int c = 0; c < 3; ++c)
           EXPECT_NEAR(a[c], b[c], 0.004) << roughness << ' ' << metallic << ' ' << theta;
       }
@@ -174,7 +162,8 @@ TEST(Bsdf, HalfGlassGainsNoEnergy) {
   for (const float roughness : {0.05F, 0.3F, 0.8F}) {
     for (const float eta : {1.5F, 1 / 1.5F, 1 / 2.0F}) {
       const float f0 = (1 - eta) * (1 - eta) / ((1 + eta) * (1 + eta));
-      for (double theta = 0.05; theta < kPi / 2; theta += 0.1) {
+      for (int step = 0; step < 16; ++step) {
+        const double theta = 0.05 + 0.1 * step;
         const Parameters p{.base_color = Vec3(1),
                            .roughness = roughness,
                            .dielectric = {.f0 = Vec3(f0)},

@@ -100,18 +100,6 @@ std::string text(const Example& s, double theta) {
   return std::string(s.name) + " " + std::to_string(s.base.roughness) + " " + std::to_string(theta);
 }
 
-/// Computes the directional albedo by the midpoint rule, without sampling.
-DVec3 integrated_layers(const Scattering& bsdf, int steps) {
-  DVec3 sum(0);
-  for (int i = 0; i < 2 * steps; ++i) {
-    for (int j = 0; j < 2 * steps; ++j) {
-      const double theta = (i + 0.5) / steps * kPi / 2, phi = (j + 0.5) / steps * kPi;
-      sum += DVec3(bsdf.evaluate(direction(theta, phi)).value) * std::sin(theta);
-    }
-  }
-  return sum * (kPi / 2 / steps) * (kPi / steps);
-}
-
 TEST(Layered, NeverGainsEnergy) {
   for (const Example& s : surfaces()) {
     for (const double theta : {0.0, 0.5, 1.0, 1.3, 1.5}) {
@@ -158,7 +146,7 @@ TEST(Layered, SamplerAndQuadratureAgree) {
   for (const Example& s : surfaces()) {
     for (const double theta : {0.2, 1.0}) {
       const Scattering bsdf = scattering(s, direction(theta));
-      const DVec3 a = sampled_albedo(bsdf, 1U << 14U), b = integrated_layers(bsdf, 200);
+      const DVec3 a = sampled_albedo(bsdf, 1U << 14U), b = integrated_albedo(bsdf, 200);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.006) << text(s, theta);
     }
   }

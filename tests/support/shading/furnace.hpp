@@ -2,9 +2,11 @@
 /// Albedos of BSDFs under uniform white light, estimated by their samples.
 
 #include "render/sampling/sobol.hpp"
+#include "support/pi.hpp"
 #include "support/shading/direction_pdf.hpp"
 #include "support/shading/scattering.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,6 +24,20 @@ DVec3 sampled_albedo(const Model& bsdf, std::uint32_t samples) {
     if (const auto s = bsdf.sample(sobol.pair(0), sobol.one(1))) sum += DVec3(s->weight);
   }
   return sum / double(samples);
+}
+
+/// Computes the directional albedo by the midpoint rule, without sampling, with `steps` angles per
+/// quarter of a circle.
+template <class Model>
+DVec3 integrated_albedo(const Model& bsdf, int steps) {
+  DVec3 sum(0);
+  for (int i = 0; i < 2 * steps; ++i) {
+    for (int j = 0; j < 2 * steps; ++j) {
+      const double theta = (i + 0.5) / steps * kPi / 2, phi = (j + 0.5) / steps * kPi;
+      sum += DVec3(bsdf.evaluate(direction(theta, phi)).value) * std::sin(theta);
+    }
+  }
+  return sum * (kPi / 2 / steps) * (kPi / steps);
 }
 
 /// Estimates the directional albedo for wo.
