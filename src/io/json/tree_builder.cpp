@@ -117,7 +117,11 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   [[nodiscard]] std::size_t skip_whitespace(std::size_t offset) const {
-    return std::min(text_.find_first_not_of(kWhitespace, offset), text_.size());
+    const auto is_white = [](char c) {
+      return std::ranges::find(kWhitespace, c) != kWhitespace.end();
+    };
+    while (offset < text_.size() && is_white(text_[offset])) ++offset;
+    return offset;
   }
 
   /// Returns the position of the next token, and the tokens allowed there.

@@ -33,8 +33,9 @@ std::size_t JsonValue::position(std::string_view key) const {
 }
 
 const JsonValue* JsonValue::find(std::string_view key) const {
+  const std::vector<JsonMember>& list = members();
   const std::size_t i = position(key);
-  return i < members().size() ? &members()[i].value : nullptr;
+  return i < list.size() ? &list[i].value : nullptr;
 }
 
 JsonValue* JsonValue::find(std::string_view key) {
