@@ -7,10 +7,11 @@
 namespace microtrace {
 namespace {
 
-Diagnostic about_file(std::string file, std::string message) {
+Diagnostic about_file(std::string file, std::string message, int system_error) {
   Diagnostic diagnostic;
   diagnostic.file = std::move(file);
   diagnostic.message = std::move(message);
+  diagnostic.system_error = system_error;
   return diagnostic;
 }
 
@@ -29,7 +30,7 @@ std::string Diagnostic::text() const {
 Error::Error(ErrorKind kind, Diagnostic where)
     : std::runtime_error(where.text()), kind_(kind), diagnostic_(std::move(where)) {}
 
-Error::Error(ErrorKind kind, std::string file, std::string message)
-    : Error(kind, about_file(std::move(file), std::move(message))) {}
+Error::Error(ErrorKind kind, std::string file, std::string message, int system_error)
+    : Error(kind, about_file(std::move(file), std::move(message), system_error)) {}
 
 }  // namespace microtrace

@@ -36,6 +36,7 @@ struct MICROTRACE_EXPORT Diagnostic {
   std::string excerpt;     ///< the source line, shortened to the width of a screen, and a second
                            ///< line with a caret
   Severity severity = Severity::warning;  ///< of a diagnostic that is returned, not thrown
+  int system_error = 0;                   ///< the value of errno, if a call of the system failed
 
   /// Returns `file:line:col: /json/pointer: message`, followed by the excerpt on separate lines.
   [[nodiscard]] std::string text() const;
@@ -45,7 +46,7 @@ struct MICROTRACE_EXPORT Diagnostic {
 class MICROTRACE_EXPORT Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, Diagnostic where);
-  Error(ErrorKind kind, std::string file, std::string message);
+  Error(ErrorKind kind, std::string file, std::string message, int system_error = 0);
 
   [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
   [[nodiscard]] const Diagnostic& diagnostic() const noexcept { return diagnostic_; }

@@ -97,27 +97,22 @@ _CLASSES: dict[int, type[Error]] = {
 }
 
 
-def error_of(code: int, diagnostic: Diagnostic) -> Error:
-    """Makes the exception that corresponds to an exit code of the program."""
+def error_of(code: int, diagnostic: Diagnostic, number: int = 0) -> Error:
+    """Makes the exception that corresponds to an exit code of the program.
+
+    `number` is the value of errno, or 0 if no call of the system failed.
+    """
     kind = _CLASSES.get(code, Error)
-    number = _error_number(diagnostic.message) if kind is FileError else None
-    if number == errno.ENOENT:
+    if kind is FileError and number == errno.ENOENT:
         kind = MissingFileError
     error = kind(diagnostic.text)
     error.diagnostic = diagnostic
     if isinstance(error, FileError):
-        if number is not None:
+        if number != 0:
             error.errno, error.strerror = number, os.strerror(number)
         if diagnostic.pointer == "":  # otherwise, the message is about a file that this one names
             error.filename = diagnostic.file or None
     return error
-
-
-def _error_number(message: str) -> int | None:
-    """Returns the number of the system's error whose description a message contains."""
-    text = message.lower()
-    found = [number for number in errno.errorcode if os.strerror(number).lower() in text]
-    return max(found, key=lambda number: len(os.strerror(number)), default=None)
 
 
 def warn_caller(warning: Warning) -> None:

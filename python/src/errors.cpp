@@ -30,8 +30,8 @@ namespace {
 
 /// Sets the Python exception for an error.
 void set_exception(ErrorKind kind, const Diagnostic& diagnostic) {
-  const nb::object exception =
-      member("errors", "error_of")(static_cast<int>(kind), to_python(diagnostic));
+  const nb::object exception = member("errors", "error_of")(
+      static_cast<int>(kind), to_python(diagnostic), diagnostic.system_error);
   PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
 }
 

@@ -35,7 +35,7 @@ std::optional<std::string> difference(const DatasetIdentity& a, const DatasetIde
 }
 
 [[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
-  throw Error(ErrorKind::io, path.string(), "can't be created: " + error.message());
+  throw Error(ErrorKind::io, path.string(), "can't be created: " + error.message(), error.value());
 }
 
 void create_folder(const fs::path& path) {

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
   message += std::strerror(error);
   message += "; ";
   message += remedy;
-  throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message);
+  throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message, error);
 }
 
 /// Returns the remedy if writing or closing a file fails with this error.

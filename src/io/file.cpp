@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace microtrace::io {
 namespace {
@@ -39,7 +40,8 @@ FileState state_of(const struct stat& status) {
 constexpr std::size_t kChunk = std::size_t{64} * 1024;
 
 [[noreturn]] void fail(const std::string& name, std::string what, int code) {
-  throw Error(ErrorKind::io, name, what.append(": ").append(std::generic_category().message(code)));
+  what.append(": ").append(std::generic_category().message(code));
+  throw Error(ErrorKind::io, name, std::move(what), code);
 }
 
 [[noreturn]] void fail_too_large(const std::string& name, std::size_t limit) {
@@ -92,7 +94,8 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
                             const std::function<void(std::string_view)>& inspect) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) fail(name, "can't be read", errno);
-  if (S_ISDIR(status.st_mode)) throw Error(ErrorKind::io, name, "is a directory, not a file");
+  if (S_ISDIR(status.st_mode))
+    throw Error(ErrorKind::io, name, "is a directory, not a file", EISDIR);
   if (files_read != nullptr) files_read->note(name, state_of(status));
   const std::size_t claimed =
       S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;

@@ -35,6 +35,12 @@ void JsonReader::fail(std::string message, ErrorKind kind) const {
   throw Error(kind, document_->at(value_->offset, pointer_, std::move(message)));
 }
 
+void JsonReader::fail(std::string message, const Error& cause) const {
+  Diagnostic diagnostic = document_->at(value_->offset, pointer_, std::move(message));
+  diagnostic.system_error = cause.diagnostic().system_error;
+  throw Error(cause.kind(), std::move(diagnostic));
+}
+
 void JsonReader::fail_unknown(std::string_view what, std::string_view name,
                               const std::vector<std::string_view>& known) const {
   std::string message = "unknown ";

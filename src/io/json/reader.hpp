@@ -54,6 +54,8 @@ class JsonReader {
   [[nodiscard]] Vec3 vector32() const { return Vec3(vector()); }
 
   [[noreturn]] void fail(std::string message, ErrorKind kind = ErrorKind::invalid_scene) const;
+  /// Throws an error of the kind of `cause`, which occurred in a file that this value names.
+  [[noreturn]] void fail(std::string message, const Error& cause) const;
   /// Throws the error for an unknown name in this value. The error suggests the most similar known
   /// one.
   [[noreturn]] void fail_unknown(std::string_view what, std::string_view name,

@@ -71,7 +71,7 @@ std::shared_ptr<const RadianceMap> read_map(const JsonReader& json,
     std::move(loaded.warnings.begin(), loaded.warnings.end(), std::back_inserter(warnings));
     return std::move(loaded.map);
   } catch (const Error& error) {
-    json.fail(printable(path.string()) + ": " + error.diagnostic().message, error.kind());
+    json.fail(printable(path.string()) + ": " + error.diagnostic().message, error);
   }
 }
 

@@ -67,7 +67,7 @@ std::string read_mesh_file(const JsonReader& json, const std::filesystem::path& 
     return read_regular_file(path, kMaxFileSize);
   } catch (const Error& error) {
     std::string message = printable(path.string());
-    json.fail(message.append(" ").append(error.diagnostic().message), error.kind());
+    json.fail(message.append(" ").append(error.diagnostic().message), error);
   }
 }
 

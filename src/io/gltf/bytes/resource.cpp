@@ -70,7 +70,7 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
     const ConfinedReads confined(folders.own, folders.allowed);
     return read_regular_file(path, max_bytes);
   } catch (const Error& error) {
-    asset.fail(uri, file + " " + error.diagnostic().message, error.kind());
+    asset.fail(uri, file + " " + error.diagnostic().message, error);
   }
 }
 

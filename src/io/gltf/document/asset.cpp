@@ -79,6 +79,12 @@ void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {
   throw Error(kind, json_.at(at.value->offset, at.pointer, std::move(message)));
 }
 
+void Asset::fail(const Element& at, std::string message, const Error& cause) const {
+  Diagnostic diagnostic = json_.at(at.value->offset, at.pointer, std::move(message));
+  diagnostic.system_error = cause.diagnostic().system_error;
+  throw Error(cause.kind(), std::move(diagnostic));
+}
+
 void Asset::warn(const Element& at, const std::string& message) {
   note(at, message, Severity::warning, 1);
 }

@@ -60,6 +60,8 @@ class Asset {
 
   [[noreturn]] void fail(const Element& at, std::string message,
                          ErrorKind kind = ErrorKind::invalid_scene) const;
+  /// Throws an error of the kind of `cause`, which occurred in a file that the value names.
+  [[noreturn]] void fail(const Element& at, std::string message, const Error& cause) const;
 
   /// Adds a warning. Warnings with the same text are merged into one, which states the first place
   /// in the file and the number of places.
