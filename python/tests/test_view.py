@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import gc
 import io
 import json
@@ -97,6 +98,7 @@ def test_two_pages_and_ports():
         assert picture(second, ["--size", "9x9", "--spp", "1"]).shape == (9, 9, 3)
         with pytest.raises(mt.FileError, match="can't be used") as caught:
             scene.view(port=first.port)
+        assert caught.value.errno == errno.EADDRINUSE
         assert not isinstance(caught.value, FileNotFoundError)
         port = first.port
     with scene.view(port=port) as again:

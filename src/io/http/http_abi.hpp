@@ -36,7 +36,8 @@ struct MicrotraceHttpHost {
   void (*handle)(void* context, const MicrotraceHttpRequest* request, void* exchange);
   /// Called ten times a second by run(), which returns if the result is 0.
   int (*goes_on)(void* context);
-  void (*complain)(void* context, const char* text);  ///< receives the reason for a failure
+  /// Receives the reason for a failure, and errno or 0.
+  void (*complain)(void* context, const char* text, int system_error);
 };
 
 struct MicrotraceHttpServer;
@@ -58,6 +59,6 @@ using MicrotraceHttpFunctions = const MicrotraceHttp* (*)();
 namespace microtrace::io {
 
 inline constexpr char kHttpModuleFileName[] = "microtrace_http.so";
-inline constexpr char kHttpFunctionsName[] = "microtrace_http_v1";
+inline constexpr char kHttpFunctionsName[] = "microtrace_http_v2";
 
 }  // namespace microtrace::io

@@ -70,6 +70,7 @@ struct HttpServer::Exchanges {
   MicrotraceHttpServer* server = nullptr;
   const std::function<bool()>* goes_on = nullptr;
   std::string complaint{};
+  int system_error = 0;  // of the complaint
   std::exception_ptr thrown{};
 };
 
@@ -97,15 +98,17 @@ HttpServer::HttpServer(const Options& options, Handler handle)
     if (!self.thrown) self.guard([&] { goes_on = (*self.goes_on)(); });
     return goes_on ? 1 : 0;
   };
-  host.complain = [](void* context, const char* text) {
+  host.complain = [](void* context, const char* text, int system_error) {
     auto& self = *static_cast<Exchanges*>(context);
+    self.system_error = system_error;
     self.guard([&] { self.complaint = text; });
   };
   exchanges_->server = exchanges_->http.open(&host);
   if (exchanges_->server == nullptr) {
     throw Error(ErrorKind::io, "",
                 "port " + std::to_string(options.port) + " of 127.0.0.1 can't be used: " +
-                    exchanges_->complaint + "; choose another one with --port");
+                    exchanges_->complaint + "; choose another one with --port",
+                exchanges_->system_error);
   }
 }
 

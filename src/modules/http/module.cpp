@@ -25,9 +25,11 @@ MicrotraceHttpServer* open(const MicrotraceHttpHost* host) {
   try {
     return new MicrotraceHttpServer(*host);
   } catch (const boost::system::system_error& error) {
-    host->complain(host->context, error.code().message().c_str());
+    const bool is_of_system = error.code().category() == boost::system::system_category();
+    host->complain(host->context, error.code().message().c_str(),
+                   is_of_system ? error.code().value() : 0);
   } catch (const std::exception& error) {
-    host->complain(host->context, error.what());
+    host->complain(host->context, error.what(), 0);
   }
   return nullptr;
 }
@@ -41,7 +43,7 @@ void run(MicrotraceHttpServer* server) {
     server->server.run();
   } catch (const std::exception& error) {
     const MicrotraceHttpHost& host = server->server.host();
-    host.complain(host.context, error.what());
+    host.complain(host.context, error.what(), 0);
   }
 }
 
@@ -69,7 +71,7 @@ void close(MicrotraceHttpServer* server) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const MicrotraceHttp* microtrace_http_v1() {
+extern "C" __attribute__((visibility("default"))) const MicrotraceHttp* microtrace_http_v2() {
   static constexpr MicrotraceHttp kFunctions{
       .open = open, .port = port, .run = run, .reply = reply, .close = close};
   return &kFunctions;
