@@ -38,4 +38,11 @@ Diagnostic JsonDocument::at(std::size_t offset, const std::string& pointer,
           .excerpt = excerpt(text, offset)};
 }
 
+void JsonDocument::fail(std::size_t offset, const std::string& pointer, std::string message,
+                        const Error& cause) const {
+  Diagnostic diagnostic = at(offset, pointer, std::move(message));
+  diagnostic.system_error = cause.diagnostic().system_error;
+  throw Error(cause.kind(), std::move(diagnostic));
+}
+
 }  // namespace microtrace::io

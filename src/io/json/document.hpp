@@ -49,6 +49,10 @@ class JsonDocument {
   /// Escapes control characters in the pointer, for example as \x1b.
   [[nodiscard]] Diagnostic at(std::size_t offset, const std::string& pointer,
                               std::string message) const;
+  /// Throws an error of the kind of `cause` about the byte at `offset`, where the text names the
+  /// file in which `cause` occurred.
+  [[noreturn]] void fail(std::size_t offset, const std::string& pointer, std::string message,
+                         const Error& cause) const;
 
  private:
   std::string_view text_;  // owned by the caller; must outlive the document

@@ -36,9 +36,7 @@ void JsonReader::fail(std::string message, ErrorKind kind) const {
 }
 
 void JsonReader::fail(std::string message, const Error& cause) const {
-  Diagnostic diagnostic = document_->at(value_->offset, pointer_, std::move(message));
-  diagnostic.system_error = cause.diagnostic().system_error;
-  throw Error(cause.kind(), std::move(diagnostic));
+  document_->fail(value_->offset, pointer_, std::move(message), cause);
 }
 
 void JsonReader::fail_unknown(std::string_view what, std::string_view name,

@@ -80,9 +80,7 @@ void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {
 }
 
 void Asset::fail(const Element& at, std::string message, const Error& cause) const {
-  Diagnostic diagnostic = json_.at(at.value->offset, at.pointer, std::move(message));
-  diagnostic.system_error = cause.diagnostic().system_error;
-  throw Error(cause.kind(), std::move(diagnostic));
+  json_.fail(at.value->offset, at.pointer, std::move(message), cause);
 }
 
 void Asset::warn(const Element& at, const std::string& message) {
