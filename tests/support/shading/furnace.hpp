@@ -1,5 +1,5 @@
 #pragma once
-/// Albedos of BSDFs under uniform white light, estimated by their samples.
+/// Albedos of BSDFs under uniform white light, estimated by their samples or integrated.
 
 #include "render/sampling/sobol.hpp"
 #include "support/pi.hpp"
