@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 namespace microtrace::tests {
@@ -97,6 +98,23 @@ TEST(GltfCamera, ZeroScalesKeepTheOrientation) {
     EXPECT_EQ(pose.position, DVec3(1, 2, 3) + scale * DVec3(-4, 5, -6));
     EXPECT_EQ(pose.direction, DVec3(0, 0, -1)) << scale.x;
     EXPECT_EQ(pose.up, DVec3(0, -1, 0)) << scale.x;
+  }
+}
+
+// The camera's axes lie in a plane, but -z and y are not parallel.
+TEST(GltfCamera, FlatParentsKeepTheOrientation) {
+  AssetBuilder asset = with_camera(perspective());
+  asset.json["nodes"][1]["rotation"] = {0.5, 0.5, 0.5, 0.5};  // maps x to y, y to z, and z to x
+  asset.json["nodes"].push_back({{"children", {1}}, {"rotation", {0.6, 0, 0, 0.8}}});
+  asset.json["nodes"].push_back({{"children", {2}}});
+  asset.json["scenes"][0]["nodes"] = {0, 3};
+  for (const DVec3& scale : {DVec3(1, 0, 1), DVec3(1, 1, 0), DVec3(0, 1, 1)}) {
+    asset.json["nodes"][3]["scale"] = {scale.x, scale.y, scale.z};
+    const LoadedScene loaded = load(asset);
+    EXPECT_THAT(texts(loaded.warnings), IsEmpty());
+    const auto& pose = std::get<PerspectiveCamera>(loaded.scene.cameras.at(0).camera).pose;
+    EXPECT_NEAR(glm::distance(pose.direction, DVec3(-1, 0, 0)), 0, 1e-15);
+    EXPECT_NEAR(glm::distance(pose.up, DVec3(0, -0.96, 0.28)), 0, 1e-15);
   }
 }
 

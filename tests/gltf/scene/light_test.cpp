@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 namespace microtrace::tests {
@@ -82,6 +83,39 @@ TEST(GltfLights, ZeroScalesKeepTheDirection) {
   const auto& spot = std::get<SpotLight>(scene.scene.lights[1].light);
   EXPECT_NEAR(spot.direction.y, 1, 1e-15);
   EXPECT_EQ(spot.position, DVec3(1, 2, 3));
+}
+
+// With a parent that flattens space, the light's own -z axis lies in a plane, but isn't 0.
+TEST(GltfLights, FlatParentsKeepTheDirection) {
+  AssetBuilder asset =
+      lit({{{"type", "directional"}}, {{"type", "spot"}, {"spot", Json::object()}}});
+  // Turns of 120 degrees about (1, 1, 1) / sqrt(3) and of about 53 degrees about x.
+  asset.json["nodes"].push_back({{"children", {1, 2}}, {"rotation", {0.5, 0.5, 0.5, 0.5}}});
+  asset.json["scenes"][0]["nodes"] = {0, 3};
+  const double sine = std::sqrt(0.2), cosine = std::sqrt(0.8);
+  for (const std::size_t node : {1, 2})
+    asset.json["nodes"][node]["rotation"] = {sine, 0, 0, cosine};
+  for (const DVec3& scale : {DVec3(1, 0, 1), DVec3(0, 2, 3), DVec3(1, 1, 0), DVec3(0, 0, 2)}) {
+    asset.json["nodes"][3]["scale"] = {scale.x, scale.y, scale.z};
+    const LoadedScene scene = load(asset);
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    ASSERT_THAT(scene.scene.lights, SizeIs(2));
+    const DVec3 direction = std::get<DirectionalLight>(scene.scene.lights[0].light).direction;
+    // The light's node turns -z to (0, 0.8, -0.6), scaled where the parent's scale isn't 0. The
+    // parent maps x to y, y to z, and z to x.
+    const auto factor = [](double s) { return s == 0 ? 1 : s; };
+    const DVec3 expected = glm::normalize(DVec3(-0.6 * factor(scale.z), 0, 0.8 * factor(scale.y)));
+    EXPECT_NEAR(glm::distance(direction, expected), 0, 1e-15) << scale.x << " " << scale.y;
+    const auto& spot = std::get<SpotLight>(scene.scene.lights[1].light);
+    EXPECT_EQ(spot.direction, direction);
+  }
+}
+
+TEST(GltfLights, MirroredZTurnsTheDirection) {
+  AssetBuilder asset = lit({{{"type", "directional"}}});
+  asset.json["nodes"][1]["scale"] = {1, 1, -1};
+  const LoadedScene scene = load(asset);
+  EXPECT_NEAR(std::get<DirectionalLight>(scene.scene.lights.at(0).light).direction.y, -1, 1e-15);
 }
 
 TEST(GltfLights, IgnoresLightsWithoutDirection) {

@@ -32,6 +32,14 @@ bool is_shown(const Asset& asset, const Model& model, std::size_t node) {
   return visible == nullptr || visible->kind() != JsonValue::Kind::boolean || visible->boolean();
 }
 
+/// Returns true if the transform maps space to a plane, a line or a point. Products of matrices are
+/// rounded, so the axes may be nearly in a plane instead.
+bool is_flat(const DMat4& matrix) {
+  const auto x = normalized(DVec3(matrix[0])), y = normalized(DVec3(matrix[1])),
+             z = normalized(DVec3(matrix[2]));
+  return !x || !y || !z || std::abs(glm::dot(glm::cross(*x, *y), *z)) < 1e-6;
+}
+
 }  // namespace
 
 std::optional<DVec3> normalized(const DVec3& v) {
@@ -176,6 +184,7 @@ std::string head(std::string_view text, std::size_t size) {
 }
 
 DMat4 UnflattenedNodes::at(const PlacedNode& placed) {
+  if (!is_flat(placed.world_from_node)) return placed.world_from_node;
   if (all_.empty()) all_ = tree_.everywhere(world_from_asset_, pose_, NodeTree::ZeroScale::as_one);
   DMat4 result = all_[placed.node];
   result[3] = placed.world_from_node[3];

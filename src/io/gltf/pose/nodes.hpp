@@ -65,21 +65,22 @@ class NodeTree {
   std::vector<std::optional<std::size_t>> parents_;  // parent of each node; nothing for roots
 };
 
-/// The transforms of nodes if scale factors of 0 count as 1. Computed when they are first needed.
+/// The transforms of nodes with an orientation of their own, such as those of cameras and lights.
 class UnflattenedNodes {
  public:
   /// All arguments must outlive this object.
   UnflattenedNodes(const NodeTree& tree, const DMat4& world_from_asset, const PosedNodes& pose)
       : tree_(tree), world_from_asset_(world_from_asset), pose_(pose) {}
 
-  /// Returns the transform of a node, with its actual position.
+  /// Returns the transform of a node to the world. If that transform maps space to a plane, a line
+  /// or a point, scale factors of 0 count as 1, but the position remains.
   [[nodiscard]] DMat4 at(const PlacedNode& placed);
 
  private:
   const NodeTree& tree_;
   const DMat4& world_from_asset_;
   const PosedNodes& pose_;
-  std::vector<DMat4> all_;
+  std::vector<DMat4> all_;  // computed when first needed
 };
 
 /// Returns at most `size` bytes from the start of UTF-8 text. Never splits a character.

@@ -51,8 +51,7 @@ std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root, const
   for (const PlacedNode& placed : nodes) {
     const std::optional<std::size_t> index = model.nodes[placed.node].camera;
     if (!index) continue;
-    std::optional<Pose> pose = pose_of(placed.world_from_node);
-    if (!pose) pose = pose_of(unflattened.at(placed));
+    const std::optional<Pose> pose = pose_of(unflattened.at(placed));
     if (!pose) {
       asset.warn(asset.element("nodes", placed.node).member("camera"),
                  "has no valid position and orientation; the camera is left out");

@@ -83,8 +83,7 @@ std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Mod
     if (!reference || !node.visible) continue;
     const Element light =
         lights.item(index(asset, *reference, "light", lights.value->items().size()));
-    std::optional<Light> in_world = placed(*light.value, node.world_from_node);
-    if (!in_world) in_world = placed(*light.value, unflattened.at(node));
+    const std::optional<Light> in_world = placed(*light.value, unflattened.at(node));
     if (!in_world) {
       asset.warn(reference->member("light"),
                  "has an unknown type, or no valid position or direction; the light is left out");
