@@ -24,6 +24,7 @@ struct Box {
 
 /// The tree of a Bvh. It doesn't refer to the scene, but holds copies of the arrays of meshes that
 /// objects share (see Array), which recognize these meshes in a later scene.
+struct BitPage;
 struct BvhTree;
 
 struct BvhOptions {
@@ -146,7 +147,7 @@ class MICROTRACE_EXPORT Bvh {
  private:
   friend class RayTracer;  // internal queries of rays in arrays
   friend void intersect_fronts(const Bvh& bvh, std::span<const Ray> rays,
-                               const std::uint32_t* backs, std::span<std::optional<Hit>> hits);
+                               const BitPage* const* backs, std::span<std::optional<Hit>> hits);
   struct MICROTRACE_HIDDEN Impl;
   std::unique_ptr<const Impl> impl_;
 };

@@ -18,6 +18,7 @@
 
 namespace microtrace {
 
+struct BitPage;
 class Lighting;
 class PathGuide;
 class Shading;
@@ -36,9 +37,8 @@ struct MICROTRACE_EXPORT World {
   const Shading* shading = nullptr;
   const Lighting* lighting = nullptr;
   const PathGuide* guide = nullptr;  ///< null if paths are not guided
-  /// Triangles whose backs have no coverage for camera rays, one bit per primitive. Null stands for
-  /// none. It may leave out some of them.
-  const std::uint32_t* hidden_backs = nullptr;
+  /// Triangles whose backs have no coverage for camera rays. It may leave out some of them.
+  const BitPage* const* hidden_backs = nullptr;
 
   /// Returns position, normals, texture coordinates, object and triangle at a hit of `ray`.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const {

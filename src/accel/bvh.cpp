@@ -249,7 +249,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
   impl_->intersect(rays, left, {}, hits);
 }
 
-void intersect_fronts(const Bvh& bvh, std::span<const Ray> rays, const std::uint32_t* backs,
+void intersect_fronts(const Bvh& bvh, std::span<const Ray> rays, BitPages backs,
                       std::span<std::optional<Hit>> hits) {
   const FloatEnvironment environment;
   bvh.impl_->intersect(rays, {}, bvh.impl_->open_backs(backs), hits);

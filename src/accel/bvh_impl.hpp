@@ -77,7 +77,7 @@ struct Bvh::Impl {
   /// sides.
   [[nodiscard]] bool knows_sides() const { return tree.duplicates.empty(); }
   /// The backs of these triangles, or of none if sides aren't known.
-  [[nodiscard]] OpenSide open_backs(const std::uint32_t* triangles) const {
+  [[nodiscard]] OpenSide open_backs(BitPages triangles) const {
     return {.triangles = knows_sides() ? triangles : nullptr, .is_back = true};
   }
   /// Traces up to kPacketRays rays with a common origin. Returns false, without effect, if one of

@@ -40,7 +40,7 @@ struct RayColumns {
 
 /// Triangles that rays pass through in some places, such as those with alpha masks.
 struct MaskedTriangles {
-  const std::uint32_t* triangles = nullptr;  ///< one bit per primitive; null: there are none
+  BitPages triangles = nullptr;
   const void* context = nullptr;
   /// What the weights alone tell about ray number i of a query, which hits primitive `id`; null
   /// if they tell nothing.

@@ -56,7 +56,7 @@ bool RayTracer::knows_sides() const {
   return queries().bvh.knows_sides();
 }
 
-OpenSide RayTracer::open_backs(const std::uint32_t* backs) const {
+OpenSide RayTracer::open_backs(BitPages backs) const {
   return queries().bvh.open_backs(backs);
 }
 

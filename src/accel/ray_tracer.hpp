@@ -24,7 +24,7 @@ class RayTracer {
   /// True if rays can pass through open sides, which isn't the case if triangles coincide.
   [[nodiscard]] bool knows_sides() const;
   /// The sides that intersect_fronts() passes through for these `backs`.
-  [[nodiscard]] OpenSide open_backs(const std::uint32_t* backs) const;
+  [[nodiscard]] OpenSide open_backs(BitPages backs) const;
 
   /// Selects the Bvh, which must outlive the following queries.
   void begin(const Bvh& bvh);

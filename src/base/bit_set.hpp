@@ -1,34 +1,27 @@
 #pragma once
-/// Sets of numbers, such as PrimitiveIds, with one bit per number. Kernels for several instruction
-/// sets include this header, so its functions have no external linkage.
+/// Sets of numbers, such as PrimitiveIds, as bits in pages. Runs of numbers that are all or none in
+/// a set share two pages, so such a set of 2^32 numbers takes 8 MiB. Kernels for several
+/// instruction sets include this header, so its functions have no external linkage.
 
-#include <cstddef>
 #include <cstdint>
 
 namespace microtrace {
+
+/// The bits of kNumbers successive numbers.
+struct BitPage {
+  static constexpr std::uint32_t kNumbers = 4096;
+  std::uint32_t bits[kNumbers / 32];
+};
+/// The pages of a set, or null for the empty set.
+using BitPages = const BitPage* const*;
+
 namespace {
 
-/// Number of elements of an array that holds a set of numbers below `count`.
-constexpr std::size_t bit_set_size(std::size_t count) {
-  return count / 32 + 1;
-}
-/// True if a number is in the set. Null stands for the empty set.
-inline bool is_in(const std::uint32_t* bits, std::uint32_t number) {
-  return bits != nullptr && (bits[number / 32] >> number % 32 & 1U) != 0;
-}
-inline void insert(std::uint32_t* bits, std::uint32_t number) {
-  bits[number / 32] |= 1U << number % 32;
-}
-/// Inserts all numbers from `first` to `last` - 1.
-inline void insert(std::uint32_t* bits, std::uint32_t first, std::uint32_t last) {
-  while (first < last) {
-    if (first % 32 == 0 && last - first >= 32) {
-      bits[first / 32] = ~0U;
-      first += 32;
-    } else {
-      insert(bits, first++);
-    }
-  }
+/// True if a number is in the set.
+inline bool is_in(BitPages pages, std::uint32_t number) {
+  if (pages == nullptr) return false;
+  const std::uint32_t i = number % BitPage::kNumbers;
+  return (pages[number / BitPage::kNumbers]->bits[i / 32] >> i % 32 & 1U) != 0;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ struct SceneView {
   /// The scene for integrators that compute no light.
   [[nodiscard]] World unlit_world(std::uint32_t samples) const {
     World result = world(samples);
-    result.hidden_backs = content->hidden_backs().bits();
+    result.hidden_backs = content->hidden_backs().pages();
     return result;
   }
   [[nodiscard]] World world(std::uint32_t samples) const {

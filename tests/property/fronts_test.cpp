@@ -4,6 +4,7 @@
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_tracer.hpp"
 #include "accel/resolve/open_side.hpp"
+#include "render/shading/primitive_set.hpp"
 #include "support/cases/adversarial_scenes.hpp"
 #include "support/cases/placed_scenes.hpp"
 
@@ -56,11 +57,11 @@ struct Columns {
   }
 };
 
-std::vector<std::uint32_t> some_open(Random& random, const Scene& scene, const Bvh& bvh) {
-  std::vector<std::uint32_t> open(bvh.primitives().count() / 32 + 1);
+PrimitiveSet some_open(Random& random, const Scene& scene, const Bvh& bvh) {
+  PrimitiveSet open(bvh.primitives().count(), "triangles");
   for (PrimitiveId id = 0; id < bvh.primitives().count(); ++id) {
     const bool on_mesh = std::holds_alternative<Mesh>(bvh.primitives().object(id).shape);
-    if (on_mesh && !random.one_in(4)) open[id / 32] |= 1U << id % 32;
+    if (on_mesh && !random.one_in(4)) open.insert(id, id + 1);
   }
   EXPECT_FALSE(scene.objects.empty());
   return open;
@@ -74,7 +75,7 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
     const Scene scene = random_scene(random);
     const Bvh bvh(scene);
     tracer.begin(bvh);
-    const std::vector<std::uint32_t> open = some_open(random, scene, bvh);
+    const PrimitiveSet open = some_open(random, scene, bvh);
     Columns columns;
     for (int i = 0; i < 40; ++i) {
       Ray ray = random_ray(random, scene, origin(random, scene));
@@ -87,8 +88,8 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
     std::vector<PrimitiveId> any(rays.count), behind(rays.count), first_behind(rays.count);
     tracer.any(rays, {}, any);
     if (tracer.knows_sides()) {
-      tracer.any(rays, {.open = {.triangles = open.data()}}, behind);
-      tracer.closest(rays, {.open = {.triangles = open.data()}}, first_behind);
+      tracer.any(rays, {.open = {.triangles = open.pages()}}, behind);
+      tracer.closest(rays, {.open = {.triangles = open.pages()}}, first_behind);
     }
     for (std::size_t i = 0; i < rays.count; ++i) {
       const Ray ray = rays[i];
@@ -101,7 +102,7 @@ TEST_P(Fronts, RaysInColumnsFindTheSame) {
       if (!tracer.knows_sides()) continue;
       const bool is_hit = hit.has_value();
       const auto is_open = [&](PrimitiveId id) {
-        return meets_open_side(bvh.primitives(), {.triangles = open.data()}, ray, id);
+        return meets_open_side(bvh.primitives(), {.triangles = open.pages()}, ray, id);
       };
       while (hit && is_open(hit->id)) hit = bvh.next(ray, *hit);
       ASSERT_EQ(behind[i] != kNoPrimitive, hit.has_value()) << "scene " << round << ", ray " << i;
@@ -149,11 +150,11 @@ void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::si
   const Bvh bvh(scene);
   tracer.begin(bvh);
   const PrimitiveId count = bvh.primitives().count();
-  std::vector<std::uint32_t> open(count / 32 + 1), masked(count / 32 + 1);
+  PrimitiveSet open(count, "triangles"), masked(count, "triangles");
   for (PrimitiveId id = 0; id < count; ++id) {
     const bool on_mesh = std::holds_alternative<Mesh>(bvh.primitives().object(id).shape);
-    if (on_mesh && random.one_in(2)) masked[id / 32] |= 1U << id % 32;
-    if (on_mesh && random.one_in(3)) open[id / 32] |= 1U << id % 32;
+    if (on_mesh && random.one_in(2)) masked.insert(id, id + 1);
+    if (on_mesh && random.one_in(3)) open.insert(id, id + 1);
   }
   const bool with_open = tracer.knows_sides() && random.one_in(2);
   Columns columns;
@@ -170,8 +171,8 @@ void check_masked(Random& random, RayTracer& tracer, const Scene& scene, std::si
   RayColumns rays = columns.view();
   rays.t_min = t_min.data();
   const Weighed context{.primitives = bvh.primitives(), .rays = rays};
-  const HitFilter filter{.open = {.triangles = with_open ? open.data() : nullptr},
-                         .masked = {.triangles = masked.data(),
+  const HitFilter filter{.open = {.triangles = with_open ? open.pages() : nullptr},
+                         .masked = {.triangles = masked.pages(),
                                     .context = &context,
                                     .known = count % 2 == 0 ? check_weights : nullptr,
                                     .passes = passes_at_random}};

@@ -5,7 +5,7 @@
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_tracer.hpp"
 #include "accel/resolve/open_side.hpp"
-#include "base/bit_set.hpp"
+#include "render/shading/primitive_set.hpp"
 #include "support/cases/adversarial_scenes.hpp"
 #include "support/cases/placed_scenes.hpp"
 
@@ -41,15 +41,15 @@ struct Seen {
   std::size_t fronts = 0;  ///< rays that hit the front of an open triangle first
 };
 
-/// Compares rays through a scene whose triangles in `bits` have open backs.
-void check_rays(const Scene& scene, const std::vector<std::uint32_t>& bits,
-                const std::vector<Ray>& rays, Seen& seen) {
+/// Compares rays through a scene whose triangles in `open_triangles` have open backs.
+void check_rays(const Scene& scene, BitPages open_triangles, const std::vector<Ray>& rays,
+                Seen& seen) {
   const Bvh bvh(scene);
   RayTracer tracer;
   tracer.begin(bvh);
-  const OpenSide open{.triangles = bits.data(), .is_back = true};
+  const OpenSide open{.triangles = open_triangles, .is_back = true};
   std::vector<std::optional<Hit>> hits(rays.size());
-  intersect_fronts(bvh, rays, bits.data(), hits);
+  intersect_fronts(bvh, rays, open_triangles, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto is_open = [&](PrimitiveId id) {
       return meets_open_side(bvh.primitives(), open, rays[i], id);
@@ -70,17 +70,17 @@ void check_rays(const Scene& scene, const std::vector<std::uint32_t>& bits,
     if (expected->id != first->id)
       ++seen.passed;
     else
-      seen.fronts += is_in(bits.data(), first->id) ? 1 : 0;
+      seen.fronts += is_in(open_triangles, first->id) ? 1 : 0;
   }
 }
 
 /// Compares random rays with the same origin, or with different ones.
 void check_random_rays(Random& random, const Scene& scene, bool have_common_origin, Seen& seen) {
   const Primitives primitives(scene);
-  std::vector<std::uint32_t> bits(bit_set_size(primitives.count()));
+  PrimitiveSet open_triangles(primitives.count(), "triangles");
   for (PrimitiveId id = 0; id < primitives.count(); ++id) {
     const bool on_mesh = std::holds_alternative<Mesh>(primitives.object(id).shape);
-    if (on_mesh && !random.one_in(4)) insert(bits.data(), id);
+    if (on_mesh && !random.one_in(4)) open_triangles.insert(id, id + 1);
   }
   std::vector<Ray> rays;
   const Vec3 common = origin(random, scene);
@@ -88,7 +88,7 @@ void check_random_rays(Random& random, const Scene& scene, bool have_common_orig
     const Vec3 o = have_common_origin ? common : origin(random, scene);
     rays.push_back(random_ray(random, scene, o));
   }
-  check_rays(scene, bits, rays, seen);
+  check_rays(scene, open_triangles.pages(), rays, seen);
 }
 
 void expect_enough(const Seen& seen) {
@@ -135,6 +135,8 @@ Mesh triangle_at(Random& random, Vec3& point) {
 TEST_P(OpenBacks, SidesAreExactNearTheOrigin) {
   Random random(43);
   Seen seen;
+  PrimitiveSet only_triangle(1, "triangles");
+  only_triangle.insert(0, 1);
   for (int round = 0; round < 300; ++round) {
     SCOPED_TRACE("scene " + std::to_string(round));
     Vec3 point;
@@ -142,7 +144,7 @@ TEST_P(OpenBacks, SidesAreExactNearTheOrigin) {
     scene.objects.push_back({.shape = triangle_at(random, point)});
     std::vector<Ray> rays;
     for (int i = 0; i < 64; ++i) rays.push_back(ray({point, random.in_cube(1)}));
-    check_rays(scene, {1}, rays, seen);
+    check_rays(scene, only_triangle.pages(), rays, seen);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(seen.missed, 1000U);

@@ -5,6 +5,7 @@
 
 #include "accel/filters/seen_shapes.hpp"
 #include "accel/layout.hpp"
+#include "base/bit_set.hpp"
 
 #include <microtrace/hit.hpp>
 
@@ -14,8 +15,8 @@ namespace microtrace {
 
 /// The triangles through which rays pass if they arrive at one of the sides.
 struct OpenSide {
-  const std::uint32_t* triangles = nullptr;  ///< one bit per primitive; null: there are none
-  bool is_back = false;                      ///< the side is the back instead of the front
+  BitPages triangles = nullptr;
+  bool is_back = false;  ///< the side is the back instead of the front
 };
 
 struct TreeView {
@@ -34,9 +35,9 @@ struct TreeView {
   bool few_are_all = true;
   FewTriangles::Box rest{};  ///< contains what the nodes don't leave out, unless few_are_all
   OpenSide open{};           ///< for the rays of streams and packets
-  /// One bit per primitive, or null. Hits of rays of streams with these triangles count only where
-  /// the triangles are visible, see StreamFallback.
-  const std::uint32_t* masked = nullptr;
+  /// Hits of rays of streams with these triangles count only where the triangles are visible, see
+  /// StreamFallback.
+  BitPages masked = nullptr;
 };
 
 /// The nearest hit so far, with its exact t in [lo, hi]. Initially lo = hi = t_max and id =

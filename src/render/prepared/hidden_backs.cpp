@@ -6,14 +6,14 @@
 namespace microtrace {
 
 HiddenBacks::HiddenBacks(const Scene& scene, const Primitives& primitives)
-    : triangles_(primitives, "the one-sided surfaces of the scene") {
+    : PrimitiveSet(primitives.count(), "the one-sided surfaces of the scene") {
   std::size_t run = 0;
   for (const ObjectRun& objects : scene.objects.runs()) {
     const PrimitiveId first = primitives.first_id_of_run(run);
     const PrimitiveId end = primitives.first_id_of_run(++run);
     const Object& object = *objects.first;
     if (std::holds_alternative<Mesh>(object.shape) && !material_of(scene, object).double_sided)
-      triangles_.insert(first, end);
+      insert(first, end);
   }
 }
 

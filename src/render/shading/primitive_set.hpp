@@ -1,40 +1,33 @@
 #pragma once
-/// Sets of a scene's primitives.
-
 #include "base/bit_set.hpp"
-#include "base/memory_account.hpp"
 
-#include <microtrace/primitives.hpp>
+#include <microtrace/hit.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace microtrace {
 
-/// A set with one bit for each primitive, as in base/bit_set.hpp, that takes no memory while it is
-/// empty.
+/// A set of primitives, as in base/bit_set.hpp, that takes no memory while it is empty.
 class PrimitiveSet {
  public:
-  /// `what` names the primitives in the message if memory doesn't suffice. It must outlive the set.
-  PrimitiveSet(const Primitives& primitives, const char* what)
-      : count_(primitives.count()), what_(what) {}
+  /// Constructs an empty set for primitives below `count`. `what` names them in the message if
+  /// memory doesn't suffice. It must outlive the set.
+  PrimitiveSet(PrimitiveId count, const char* what) : count_(count), what_(what) {}
 
-  /// Inserts the primitives from `first` to `end` - 1.
-  void insert(PrimitiveId first, PrimitiveId end) {
-    if (first == end) return;
-    if (bits_.empty()) {
-      take_memory(count_ / 8, what_);
-      bits_.resize(bit_set_size(count_));
-    }
-    microtrace::insert(bits_.data(), first, end);
-  }
-  void clear() { bits_.clear(); }
+  /// Inserts the primitives from `first` to `end` - 1. Throws Error (limit) if memory runs out.
+  void insert(PrimitiveId first, PrimitiveId end);
+  void clear();
 
-  /// The bits, or null if the set is empty.
-  [[nodiscard]] const std::uint32_t* bits() const { return bits_.empty() ? nullptr : bits_.data(); }
+  [[nodiscard]] BitPages pages() const { return pages_.empty() ? nullptr : pages_.data(); }
 
  private:
-  std::vector<std::uint32_t> bits_;
+  void insert_into(std::size_t page, std::uint32_t first, std::uint32_t end);
+
+  std::vector<BitPage*> pages_;
+  std::vector<std::unique_ptr<BitPage>> mixed_;  // the pages that aren't shared with other sets
   PrimitiveId count_;
   const char* what_;
 };

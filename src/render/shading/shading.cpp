@@ -88,8 +88,8 @@ void TexturedMaterial::fetch(const TexelAddress<1>& address) const {
 Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables)
     : primitives_(primitives),
       maps_(std::make_unique<TextureMaps>(scene, tables)),
-      open_fronts_(primitives, "the one-sided surfaces of the scene"),
-      masked_(primitives, "the transparent surfaces of the scene") {
+      open_fronts_(primitives.count(), "the one-sided surfaces of the scene"),
+      masked_(primitives.count(), "the transparent surfaces of the scene") {
   const auto add = [&](const Material& material) {
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
     look.has_constant_emission = look[MaterialTexture::emissive].map == nullptr &&

@@ -4,10 +4,10 @@
 #include "accel/kernels/kernel.hpp"
 #include "base/bit_set.hpp"
 #include "render/kernels/kernel.hpp"
-#include "render/primitive_set.hpp"
 #include "render/shading/flat_triangles.hpp"
 #include "render/shading/footprint.hpp"
 #include "render/shading/opacity_maps.hpp"
+#include "render/shading/primitive_set.hpp"
 #include "render/shading/textured_material.hpp"
 #include "simd/vector_types.hpp"
 
@@ -89,9 +89,8 @@ class Shading {
   /// is false for those with has_open_opaque_parts, so no shadow ray takes a shortcut there.
   [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
-  /// The triangles with open backs, one bit per primitive. Null if there are none, or if other
-  /// primitives have open backs.
-  [[nodiscard]] const std::uint32_t* open_fronts() const { return open_fronts_.bits(); }
+  /// The triangles with open backs, or none if other primitives have open backs.
+  [[nodiscard]] BitPages open_fronts() const { return open_fronts_.pages(); }
   /// True if the primitive blocks all light that doesn't arrive through an open back.
   [[nodiscard]] bool is_opaque(PrimitiveId id) const { return all_cover_ || look_of(id).is_opaque; }
   /// True if the primitive may be emissive.
@@ -102,9 +101,8 @@ class Shading {
   }
   [[nodiscard]] bool is_open_front(PrimitiveId id) const { return is_in(open_fronts(), id); }
 
-  /// The triangles on which is_transparent() may be true, and all for which is_blended() is, one
-  /// bit per primitive; null if there are none.
-  [[nodiscard]] const std::uint32_t* masked() const { return masked_.bits(); }
+  /// The triangles on which is_transparent() may be true, and all for which is_blended() is.
+  [[nodiscard]] BitPages masked() const { return masked_.pages(); }
   [[nodiscard]] bool is_masked(PrimitiveId id) const { return is_in(masked(), id); }
   /// Whether one of these triangles has opacity at these weights, if that is known.
   [[nodiscard]] Visible known_visible(PrimitiveId id, const HitWeights& at) const;

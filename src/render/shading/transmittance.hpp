@@ -114,7 +114,7 @@ class LightBlockers {
   }
 
   const Shading& shading_;
-  const std::uint32_t* open_;
+  BitPages open_;
   bool may_pass_opaque_;  // true if light passes opaque surfaces through which the queries don't
   const std::uint32_t* targets_ = nullptr;
   std::span<PassedTriangles> passed_;
