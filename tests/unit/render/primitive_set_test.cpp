@@ -20,10 +20,8 @@ TEST(PrimitiveSet, EmptySetTakesNoMemory) {
   EXPECT_FALSE(is_in(set.pages(), 7));
 }
 
-using adversarial::Random;
-
 TEST(PrimitiveSet, ContainsWhatWasInserted) {
-  Random random(51);
+  adversarial::Random random(51);
   for (int round = 0; round < 200; ++round) {
     const PrimitiveId count = 1 + random.bits() % (5 * BitPage::kNumbers);
     PrimitiveSet set(count, "primitives");
