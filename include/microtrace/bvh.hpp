@@ -10,7 +10,6 @@
 #include <microtrace/scene.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,9 +21,10 @@ struct Box {
   Vec3 lo, hi;
 };
 
+struct BitPage;
+
 /// The tree of a Bvh. It doesn't refer to the scene, but holds copies of the arrays of meshes that
 /// objects share (see Array), which recognize these meshes in a later scene.
-struct BitPage;
 struct BvhTree;
 
 struct BvhOptions {

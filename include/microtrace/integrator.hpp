@@ -37,7 +37,8 @@ struct MICROTRACE_EXPORT World {
   const Shading* shading = nullptr;
   const Lighting* lighting = nullptr;
   const PathGuide* guide = nullptr;  ///< null if paths are not guided
-  /// Triangles whose backs have no coverage for camera rays. It may leave out some of them.
+  /// Triangles whose backs have no coverage for camera rays, or null for none. It may leave out
+  /// some of them.
   const BitPage* const* hidden_backs = nullptr;
 
   /// Returns position, normals, texture coordinates, object and triangle at a hit of `ray`.

@@ -8,8 +8,8 @@ namespace microtrace {
 namespace {
 
 // Never written to.
-BitPage no_numbers{};
-BitPage all_numbers = [] {
+constinit BitPage no_numbers{};
+constinit BitPage all_numbers = [] {
   BitPage page{};
   std::ranges::fill(page.bits, ~std::uint32_t{0});
   return page;
