@@ -8,6 +8,7 @@
 #include "support/cases/adversarial_rays.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <set>
@@ -273,6 +274,41 @@ TEST_P(Touching, QueriesPartInManySubtrees) {
     expected.push_back(places.near(lo, hi));
   }
   EXPECT_EQ(places.search(queries), expected);
+}
+
+/// Leaves the index of a node that doesn't exist in memory that the next call may use, so that a
+/// search that reads uninitialized memory crashes.
+[[gnu::noinline]] void leave_invalid_nodes_on_the_stack() {
+  std::array<volatile ChildRef, 16384> memory;
+  for (volatile ChildRef& ref : memory) ref = child_ref::kMaxNodes - 1;
+}
+
+// Queries part in more subtrees than a stack has room for, and have too many results there.
+TEST_P(Touching, QueriesInADenseSoup) {
+  Random random(55);
+  Mesh mesh;
+  for (int i = 0; i < 20000; ++i)
+    append_triangle(mesh, random.in_cube(1), random.in_cube(1), random.in_cube(1));
+  const Places places(mesh, *GetParam());
+  int some = 0, too_many = 0;
+  for (int round = 0; round < 500; ++round) {
+    BoxQueries queries{};
+    queries.size = kBoxQueries;
+    std::vector<std::optional<std::set<PrimitiveId>>> expected;
+    const float reach = random.power_of_two(-16, -5);
+    for (int i = 0; i < queries.size; ++i) {
+      const Vec3 p = random.in_cube(1), lo = p - reach, hi = p + reach;
+      for (int k = 0; k < 3; ++k) queries.lo[k][i] = lo[k], queries.hi[k][i] = hi[k];
+      queries.omitted_id[i] = kNoPrimitive;
+      queries.plane_axis[i] = -1;
+      expected.push_back(places.near(lo, hi));
+      (expected.back() ? some : too_many) += 1;
+    }
+    leave_invalid_nodes_on_the_stack();
+    ASSERT_EQ(places.search(queries), expected) << round;
+  }
+  EXPECT_GT(some, 1000);
+  EXPECT_GT(too_many, 1000);
 }
 
 // The large triangles of a tree are searched without traversal.

@@ -137,7 +137,11 @@ class TreeSearch {
     else
       part(tree_.root, open_);
     int going[kBoxQueries], count = 0;
-    for (Lanes lanes = parted_; lanes != 0; lanes &= lanes - 1) going[count++] = first_lane(lanes);
+    for (Lanes lanes = parted_; lanes != 0; lanes &= lanes - 1) {
+      const int i = first_lane(lanes);
+      going[count] = i;
+      count += searches_[i].size > 0 ? 1 : 0;  // part() may have ended the search
+    }
     while (count > 0) {
       int left = 0;
       for (int k = 0; k < count; ++k) {
