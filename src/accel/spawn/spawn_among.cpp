@@ -5,6 +5,7 @@
 #include "accel/spawn/origin_search.hpp"
 #include "accel/spawn/touching.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -30,11 +31,9 @@ class Neighbors {
   /// Adds primitive `id` if it may have a point in the box.
   void add(PrimitiveId id, const Bounds& box) {
     if (id == id_) return;
-    for (const Side& side : sides_) {
-      if (side.id == id) return;
-    }
     primitives_.visit(id, [&](const auto& shape) {
       if (build::is_empty(shape) || !is_near(shape, box)) return;
+      if (std::ranges::find(sides_, id, &Side::id) != sides_.end()) return;
       if (const auto sign = side_of_witness(shape)) sides_.push_back({.id = id, .sign = *sign});
     });
   }
@@ -63,8 +62,12 @@ class Neighbors {
   };
 
   static bool is_near(const Triangle& t, const Bounds& box) {
-    return overlap(
-        {.lo = glm::min(t.a, glm::min(t.b, t.c)), .hi = glm::max(t.a, glm::max(t.b, t.c))}, box);
+    const Bounds own{.lo = glm::min(t.a, glm::min(t.b, t.c)),
+                     .hi = glm::max(t.a, glm::max(t.b, t.c))};
+    if (!overlap(own, box)) return false;
+    const DVec3 lo = box.lo, hi = box.hi, center = 0.5 * lo + 0.5 * hi;
+    const DVec3 reach = glm::max(hi - center, center - lo) * (1 + 0x1p-20);
+    return TriangleSurface(t).certain_sign(center, reach) == 0;  // or else beside the plane
   }
   template <class Other>
   static bool is_near(const Other&, const Bounds&) {
