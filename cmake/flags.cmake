@@ -1,8 +1,12 @@
 # Compiler flags are set only here. Every target of the project links microtrace_flags.
 add_library(microtrace_flags INTERFACE)
 target_compile_features(microtrace_flags INTERFACE cxx_std_20)
+if(PROJECT_IS_TOP_LEVEL)
+  target_compile_options(microtrace_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+endif()
 target_compile_options(microtrace_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  # A project that contains this one may have enabled these.
+  -fno-fast-math -fno-finite-math-only -fno-associative-math -fno-reciprocal-math -fsigned-zeros -fno-lto
   # a*b+c must round twice on every machine. Fused multiply-adds would make results depend on the compiler and the
   # instruction set.
   -ffp-contract=off
@@ -13,6 +17,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # With this optimization, which -O2 includes too, GCC 12.2 for AArch64 writes old values over members that a short loop
   # has stored: packets of rays miss triangles, because set_beams() computes wrong beams.
   target_compile_options(microtrace_flags INTERFACE -fno-predictive-commoning)
+  # Objcopy can't make unique symbols local (src/CMakeLists.txt).
+  target_compile_options(microtrace_flags INTERFACE -fno-gnu-unique)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # Disables GCC's false warnings on "text" + std::string (GCC bug 105651), and on the members that a std::variant doesn't

@@ -9,10 +9,8 @@ if(BUILD_SHARED_LIBS)
   set(unless_shared)
   set(unless_static EXCLUDE_FROM_ALL)
 endif()
-set(microtrace_static microtrace_library)
-set(microtrace_shared microtrace_shared)
 foreach(kind shared static)
-  install(TARGETS ${microtrace_${kind}} EXPORT microtrace_${kind}
+  install(TARGETS microtrace_${kind} EXPORT microtrace_${kind}
     ARCHIVE COMPONENT ${kind} ${unless_${kind}} LIBRARY COMPONENT ${kind} ${unless_${kind}})
   install(EXPORT microtrace_${kind} NAMESPACE microtrace:: DESTINATION ${microtrace_package_dir} COMPONENT ${kind} ${unless_${kind}})
 endforeach()

@@ -2,9 +2,13 @@
 /// Sets the floating-point environment that exactness and equal bits require: rounding to nearest,
 /// no flushing of subnormal numbers, no traps. The host program may use other settings. Flushing to
 /// zero is common in audio and graphics, and GCC enables it at startup in programs linked with
-/// -ffast-math.
+/// -ffast-math. The library itself can't be compiled with that option.
 
 #include <cstdint>
+
+#if defined(__FAST_MATH__) || __FINITE_MATH_ONLY__
+#error "microtrace needs -fno-fast-math and -fno-finite-math-only after other options."
+#endif
 
 namespace microtrace {
 

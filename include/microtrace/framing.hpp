@@ -58,7 +58,7 @@ class MICROTRACE_EXPORT Framing {
   /// True if adding the point, or a point between such points, certainly would not change anything.
   [[nodiscard]] bool holds(const DVec3& point) const;
   template <class Support>
-  void add_support(const Support& support, const DVec3& shift);
+  MICROTRACE_HIDDEN void add_support(const Support& support, const DVec3& shift);
 
   [[nodiscard]] bool is_empty() const { return !(low_.x <= high_.x); }
   [[nodiscard]] PerspectiveCamera camera_at(const DVec3& position) const;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that a shared library exports the functions and classes that its headers declare for export, and nothing else.
+"""Checks that a library exports the functions and classes that its headers declare for export, and nothing else. An archive
+must not contain functions that the linker may replace by the application's copies either.
 
 usage: exported_test.py LIBRARY INCLUDE_FOLDER
 """
@@ -9,9 +10,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-listed = subprocess.run(["nm", "--dynamic", "--defined-only", "--demangle", "--format=posix", sys.argv[1]],
-                        capture_output=True, text=True, check=True).stdout
-symbols = [re.sub(r" [A-Za-z] [0-9a-f ]*$", "", line) for line in listed.splitlines()]
+is_archive = sys.argv[1].endswith(".a")
+listed = subprocess.run(["nm", "--extern-only" if is_archive else "--dynamic", "--defined-only", "--demangle", "--format=posix",
+                         sys.argv[1]], capture_output=True, text=True, check=True).stdout
+lines = [line for line in listed.splitlines() if line and not line.endswith(":")]  # omits names of files
+symbols = [re.sub(r" [A-Za-z] [0-9a-f ]*$", "", line) for line in lines]
+replaceable = [line for line in lines if is_archive and re.search(r" [Wu] [0-9a-f ]*$", line)]
 
 headers = "\n".join(path.read_text() for path in Path(sys.argv[2]).rglob("*.hpp"))
 headers = re.sub(r"//.*|^#.*", "", headers, flags=re.MULTILINE)
@@ -36,7 +40,9 @@ missing = [*(c_functions - set(symbols)),
            *(name for name in functions | classes if not any(re.search(rf"\b{name}\b", symbol) for symbol in symbols))]
 for symbol in leaked:
     print("exported without a declaration:", symbol)
+for line in replaceable:
+    print("replaced by copies of applications:", line)
 for name in missing:
     print("declared but not exported:", name)
 print(len(symbols), "symbols exported,", len(functions) + len(c_functions), "functions and", len(classes), "classes declared")
-sys.exit(bool(leaked or missing or not symbols))
+sys.exit(bool(leaked or missing or replaceable or not symbols))

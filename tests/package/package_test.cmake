@@ -56,11 +56,20 @@ function(install_to folder)
   endforeach()
 endfunction()
 
+# Lets the compiler of programs fuse multiplications and additions, as GCC does for recent processors.
+set(fused "")
+if(EXISTS /proc/cpuinfo)
+  file(STRINGS /proc/cpuinfo has_fma REGEX "^flags.* fma " LIMIT_COUNT 1)
+  if(has_fma)
+    set(fused "-mfma -ffp-contract=fast")
+  endif()
+endif()
+
 # Builds a program in another folder, linked with the library in ${prefix}.
 function(check_library)
   set(consumer ${prefix}-consumer)
   run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/consumer -B ${consumer} -G ${GENERATOR}
-    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=Release)
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS} ${fused}" -DCMAKE_BUILD_TYPE=Release)
   run(${CMAKE_COMMAND} --build ${consumer})
   set(pictures ${consumer}/a.ppm)
   foreach(module ${MODULES})
@@ -85,6 +94,7 @@ file(MAKE_DIRECTORY ${WORK})
 set(prefix ${WORK}/static)
 install_to(${prefix} Unspecified static)
 check_library()
+run(python3 ${SOURCE}/tests/package/exported_test.py ${prefix}/${LIBDIR}/libmicrotrace.a ${prefix}/include)
 foreach(file lib/cmake/microtrace/microtraceConfig.cmake share/man/man1/microtrace.1 share/doc/microtrace/LICENSE
         share/doc/microtrace/README.md share/doc/microtrace/docs/scene.schema.json
         share/doc/microtrace/third_party/meshoptimizer/LICENSE)
@@ -133,3 +143,8 @@ if(NOT output MATCHES "SONAME[^\n]*libmicrotrace\\.so\\.[0-9]+\\.[0-9]+\\]")
   message(FATAL_ERROR "the shared library has no version in its name:\n${output}")
 endif()
 run(python3 ${SOURCE}/tests/package/exported_test.py ${prefix}/${LIBDIR}/libmicrotrace.so ${prefix}/include)
+
+# Compiles within a project that sets -ffast-math.
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/parent -B ${WORK}/parent -G ${GENERATOR} -DMICROTRACE_SOURCE=${SOURCE}
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${WORK}/parent --target one_source)

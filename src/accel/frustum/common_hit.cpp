@@ -120,7 +120,7 @@ class Search {
   const Tree& tree_;
   const Frustum& frustum_;
   Directions directions_;
-  std::array<Interval, 3> components_{};
+  Interval components_[3];
   /// The primitive with the least upper bound of t, its t, and the least lower bound of all others.
   PrimitiveId id_ = 0;
   Interval first_{.lo = kInfinity, .hi = kInfinity};

@@ -126,23 +126,23 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   /// Returns the position of the next token, and the tokens allowed there.
   [[nodiscard]] SyntaxContext next_token() const {
-    using Expects = SyntaxContext::Expects;
+    using enum SyntaxContext::Expects;
     SyntaxContext context{
         .in_object = !open_.empty() && open_.back().kind == JsonValue::Kind::object,
         .token = skip_whitespace(end_)};
     const std::string_view rest = text_.substr(context.token);
     if (last_ == Last::key) {
-      context.expects = rest.starts_with(':') ? Expects::value : Expects::colon;
+      context.expects = rest.starts_with(':') ? value : colon;
       if (rest.starts_with(':')) context.token = skip_whitespace(context.token + 1);
     } else if (open_.empty()) {
-      context.expects = last_ == Last::open ? Expects::value : Expects::end_of_document;
+      context.expects = last_ == Last::open ? value : end_of_document;
     } else if (last_ == Last::open) {
-      context.expects = context.in_object ? Expects::key_or_end : Expects::value_or_end;
+      context.expects = context.in_object ? key_or_end : value_or_end;
     } else if (rest.starts_with(',')) {
-      context.expects = context.in_object ? Expects::key : Expects::value;
+      context.expects = context.in_object ? key : value;
       context.comma = std::exchange(context.token, skip_whitespace(context.token + 1));
     } else {
-      context.expects = Expects::comma_or_end;
+      context.expects = comma_or_end;
     }
     return context;
   }

@@ -86,7 +86,7 @@ auto BaseBsdf<N, Parts>::returned(const V& wi, const V& h) const -> F {
   const F through = larger_of(transmittance(z_o), transmittance(z_i));
   const F here = 2 / (wo_.z + ggx_.root(wo_)), there = 2 / (wi.z + ggx_.root(wi));
   const F visibility = 0.25F * smaller_of(F(here / wi.z), F(there / wo_.z));
-  return (z_o > 0) & (z_i > 0) ? visibility * (1 - through) : F{};
+  return ((z_o > 0) & (z_i > 0)) ? visibility * (1 - through) : F{};
 }
 
 template <int N, class Parts>

@@ -79,13 +79,13 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
   };
   // Consecutive rays are up to 16 samples of one pixel, then of its neighbor, so that they form
   // narrow packets. Each pixel has one sample in the slice among `slice_.count` samples.
-  constexpr std::uint32_t kSamples = 16;
+  constexpr std::uint32_t kTogether = 16;
   const std::uint32_t step = slice_.count;
-  for (std::uint32_t k = range.first - range.first % step; k < range.last; k += kSamples * step) {
+  for (std::uint32_t k = range.first - range.first % step; k < range.last; k += kTogether * step) {
     for (std::size_t i = 0; i < all.pixels().size(); ++i) {
       const TilePixels::Pixel& pixel = all.pixels()[i];
       const std::uint32_t first = k + pixel.first_sample;
-      const std::uint32_t last = std::min(range.last, first + kSamples * step);
+      const std::uint32_t last = std::min(range.last, first + kTogether * step);
       for (std::uint32_t index = first; index < last; index += step) {
         if (index < range.first) continue;
         if (batch.is_full()) trace();
