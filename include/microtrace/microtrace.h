@@ -99,8 +99,9 @@ typedef struct mt_mesh {
 MT_API void mt_mesh_init(mt_mesh* mesh);
 
 /* Makes a scene whose object i is meshes[i]. On success, *scene is a new scene, which the caller
- * must release. Returns MT_INVALID_SCENE if an index is out of range or a number is not finite.
- * `threads` is as in mt_load_options. */
+ * must release. Returns MT_INVALID_SCENE if an index is out of range or a number is not finite or
+ * out of its range, MT_LIMIT if there are 2^32 triangles or more, and MT_USAGE if the structs'
+ * sizes differ. `threads` is as in mt_load_options. */
 MT_API mt_status mt_scene_from_meshes(const mt_mesh* meshes, size_t count, uint32_t threads,
                                       mt_scene** scene);
 
@@ -150,7 +151,8 @@ typedef struct mt_ray {
  * nearest. */
 typedef struct mt_hit {
   uint32_t primitive; /* counted through all objects in order; MT_NO_HIT if there is no hit */
-  float t;            /* the exact ray parameter, rounded once; infinity if there is no hit */
+  float t;            /* the exact ray parameter, rounded once, which may give infinity; infinity if
+                         there is no hit */
 } mt_hit;
 
 /* Sets hits[i] to the nearest hit of rays[i]. `threads` is the number of threads; 0 means one per
@@ -238,6 +240,9 @@ typedef struct mt_render_options {
 
 MT_API void mt_render_options_init(mt_render_options* options);
 
+/* Renders a picture. On success, *film is a new film, which the caller must release. options may be
+ * NULL. Returns MT_USAGE for invalid options, MT_LIMIT if memory runs out, and MT_CANCELED if the
+ * progress callback requests it. */
 MT_API mt_status mt_render(const mt_scene* scene, const mt_render_options* options, mt_film** film);
 
 MT_API void mt_film_release(mt_film* film);
@@ -258,7 +263,9 @@ MT_API mt_status mt_film_channel_floats(const mt_film* film, size_t channel, flo
  * floats. */
 MT_API mt_status mt_film_channel_integers(const mt_film* film, size_t channel, uint32_t* values);
 
-/* Writes a picture file. The extension of `path` selects the format. */
+/* Writes a picture file, and replaces an existing one only when all is written. The extension of
+ * `path` selects the format. Returns MT_UNSUPPORTED if the extension is unknown or the format's
+ * module is not installed, and MT_IO if the file can't be written. */
 MT_API mt_status mt_film_save(const mt_film* film, const char* path);
 
 #ifdef __cplusplus

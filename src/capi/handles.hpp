@@ -48,17 +48,25 @@ inline void require(const void* argument, const char* name) {
   if (argument == nullptr) throw Error(ErrorKind::usage, "", std::string(name) + " is NULL");
 }
 
-/// Returns the options, with defaults for members that the caller's version of the header lacks. If
-/// `options` is null, returns the defaults.
+/// Returns a struct whose first members the caller has set, and defaults for those that the
+/// caller's version of the header lacks. Throws Error (usage) if its size is impossible.
+template <class Struct>
+[[nodiscard]] Struct complete(const Struct& own, void (*init)(Struct*)) {
+  Struct result;
+  init(&result);
+  if (own.size < sizeof own.size || own.size > sizeof result)
+    throw Error(ErrorKind::usage, "",
+                "a struct's size is not one of this library: initialize it by ..._init()");
+  std::memcpy(&result, &own, own.size);
+  return result;
+}
+
+/// Returns the options as above, or the defaults if `options` is null.
 template <class Options>
 [[nodiscard]] Options complete(const Options* options, void (*init)(Options*)) {
+  if (options != nullptr) return complete(*options, init);
   Options result;
   init(&result);
-  if (options == nullptr) return result;
-  if (options->size < sizeof options->size || options->size > sizeof result)
-    throw Error(ErrorKind::usage, "",
-                "the options' size is not one of this library: initialize them by ..._init()");
-  std::memcpy(&result, options, options->size);
   return result;
 }
 

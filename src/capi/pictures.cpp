@@ -14,6 +14,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,19 +59,19 @@ Camera camera_of(const mt_render_options& options, const Scene& scene, ImageSize
   camera.pose.direction = vector(from.target) - vector(from.position);
   camera.pose.up = vector(from.up);
   camera.vertical_fov = from.vertical_fov * (std::numbers::pi / 180);
-  check(validate(Camera(camera)), "mt_camera");
+  check(validate(Camera(camera)), "the camera's");
   return camera;
 }
 
 std::vector<Aov> aovs_of(const char* names) {
   std::vector<Aov> aovs;
-  std::string_view rest = names != nullptr ? names : "";
-  while (!rest.empty()) {
-    const std::string_view name = rest.substr(0, rest.find(','));
+  if (names == nullptr || *names == '\0') return aovs;
+  for (const auto part : std::views::split(std::string_view(names), ',')) {
+    const std::string_view name(part.begin(), part.end());
     const auto aov = aov_named(name);
-    if (!aov) refuse("there is no output named \"" + std::string(name) + "\"");
+    if (!aov)
+      refuse("there is no output named \"" + std::string(name) + "\" for mt_render_options::aovs");
     aovs.push_back(*aov);
-    rest.remove_prefix(std::min(name.size() + 1, rest.size()));
   }
   return aovs;
 }

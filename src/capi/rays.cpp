@@ -5,7 +5,7 @@
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -40,42 +40,53 @@ void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
   blocks.rethrow();
 }
 
+/// A query of an API function, for `count` rays.
+struct Query {
+  const mt_scene* scene;
+  const mt_ray* rays;
+  std::size_t count;
+  std::uint32_t threads;
+};
+
+/// An array of one element per ray.
+struct NamedArray {
+  const void* first;
+  const char* name;
+};
+
 /// Checks the arguments of an API function, then calls f(scene, first, last) for blocks of rays.
 template <class F>
-mt_status for_rays(const mt_scene* scene, const mt_ray* rays, std::size_t count,
-                   std::uint32_t threads, const void* results, const F& f) {
+mt_status for_rays(const Query& query, std::initializer_list<NamedArray> arrays, const F& f) {
   return guarded([&] {
-    require(scene, "scene");
-    if (count == 0) return;
-    require(rays, "rays");
-    require(results, "the array of results");
-    for_each_block(count, threads,
-                   [&](std::size_t first, std::size_t last) { f(scene->prepared, first, last); });
+    require(query.scene, "scene");
+    if (query.count == 0) return;
+    require(query.rays, "rays");
+    for (const auto& [first, name] : arrays) require(first, name);
+    for_each_block(query.count, query.threads, [&](std::size_t first, std::size_t last) {
+      f(query.scene->prepared, first, last);
+    });
   });
 }
 
 /// Calls f(scene, i) for each ray index i.
 template <class F>
-mt_status for_each_ray(const mt_scene* scene, const mt_ray* rays, std::size_t count,
-                       std::uint32_t threads, const void* results, const F& f) {
-  const auto answer = [&](const PreparedScene& s, std::size_t first, std::size_t last) {
+mt_status for_each_ray(const Query& query, std::initializer_list<NamedArray> arrays, const F& f) {
+  return for_rays(query, arrays, [&](const PreparedScene& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) f(s, i);
-  };
-  return for_rays(scene, rays, count, threads, results, answer);
+  });
 }
 
 /// Calls f(scene, rays, first) for batches of consecutive rays, where `first` is the index of the
 /// first ray.
 template <class F>
-mt_status for_each_batch(const mt_scene* scene, const mt_ray* rays, std::size_t count,
-                         std::uint32_t threads, const void* results, const F& f) {
+mt_status for_each_batch(const Query& query, NamedArray results, const F& f) {
   const auto answer = [&](const PreparedScene& s, std::size_t first, std::size_t last) {
     std::vector<Ray> own;
     own.reserve(last - first);
-    for (std::size_t i = first; i < last; ++i) own.push_back(ray_of(rays[i]));
+    for (std::size_t i = first; i < last; ++i) own.push_back(ray_of(query.rays[i]));
     f(s, std::span<const Ray>(own), first);
   };
-  return for_rays(scene, rays, count, threads, results, answer);
+  return for_rays(query, {results}, answer);
 }
 
 /// Converts a hit from the caller. Throws Error (usage) if the scene does not have the primitive.
@@ -119,7 +130,7 @@ mt_status mt_intersect(const mt_scene* scene, const mt_ray* rays, size_t count, 
     s.intersect(own, found);
     std::ranges::transform(found, hits + first, hit_of);
   };
-  return for_each_batch(scene, rays, count, threads, hits, answer);
+  return for_each_batch({scene, rays, count, threads}, {hits, "hits"}, answer);
 }
 
 mt_status mt_occluded(const mt_scene* scene, const mt_ray* rays, size_t count, uint32_t threads,
@@ -129,7 +140,7 @@ mt_status mt_occluded(const mt_scene* scene, const mt_ray* rays, size_t count, u
     s.occluded(own, std::span(found.get(), own.size()));
     for (std::size_t i = 0; i < own.size(); ++i) results[first + i] = found[i] ? 1 : 0;
   };
-  return for_each_batch(scene, rays, count, threads, results, answer);
+  return for_each_batch({scene, rays, count, threads}, {results, "results"}, answer);
 }
 
 mt_status mt_next(const mt_scene* scene, const mt_ray* rays, const mt_hit* after, size_t count,
@@ -139,7 +150,7 @@ mt_status mt_next(const mt_scene* scene, const mt_ray* rays, const mt_hit* after
         hit_of(after[i].primitive == MT_NO_HIT ? std::nullopt
                                                : s.next(ray_of(rays[i]), known_hit(s, after[i])));
   };
-  return for_each_ray(scene, rays, count, threads, after == nullptr ? nullptr : hits, answer);
+  return for_each_ray({scene, rays, count, threads}, {{after, "after"}, {hits, "hits"}}, answer);
 }
 
 mt_status mt_surfaces(const mt_scene* scene, const mt_ray* rays, const mt_hit* hits, size_t count,
@@ -149,5 +160,6 @@ mt_status mt_surfaces(const mt_scene* scene, const mt_ray* rays, const mt_hit* h
                       ? mt_surface{}
                       : surface_of(s, ray_of(rays[i]), known_hit(s, hits[i]));
   };
-  return for_each_ray(scene, rays, count, threads, hits == nullptr ? nullptr : surfaces, answer);
+  return for_each_ray({scene, rays, count, threads}, {{hits, "hits"}, {surfaces, "surfaces"}},
+                      answer);
 }

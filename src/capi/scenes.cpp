@@ -105,7 +105,12 @@ std::vector<ColoredMesh> meshes_of(const mt_mesh* meshes, std::size_t count) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(meshes);
   const std::size_t stride = count > 0 ? meshes->size : 0;
   for (std::size_t i = 0; i < count; ++i, bytes += stride) {
-    const mt_mesh from = complete(reinterpret_cast<const mt_mesh*>(bytes), mt_mesh_init);
+    const auto& given = *reinterpret_cast<const mt_mesh*>(bytes);
+    if (given.size != stride)
+      throw Error(ErrorKind::usage, "",
+                  "mesh " + std::to_string(i) +
+                      " has another size than the first: initialize each by mt_mesh_init()");
+    const mt_mesh from = complete(given, mt_mesh_init);
     Mesh mesh = mesh_of(from);
     Material material = material_of(from, mesh);
     result.push_back({.mesh = std::move(mesh), .material = std::move(material)});
@@ -124,6 +129,16 @@ Placement placement_of(const mt_instance& instance) {
 
 Object object_of(Mesh mesh, std::size_t material) {
   return {.name = "", .shape = std::move(mesh), .material = static_cast<std::uint32_t>(material)};
+}
+
+/// Returns the scene whose object i is mesh i.
+Scene scene_of(std::vector<ColoredMesh> meshes) {
+  Scene scene;
+  for (auto& [mesh, material] : meshes) {
+    scene.objects.push_back(object_of(std::move(mesh), scene.materials.size()));
+    scene.materials.push_back(std::move(material));
+  }
+  return scene;
 }
 
 }  // namespace
@@ -177,11 +192,7 @@ mt_status mt_scene_from_meshes(const mt_mesh* meshes, size_t count, uint32_t thr
   return guarded([&] {
     require(scene, "scene");
     LoadedScene loaded;
-    for (auto& [mesh, material] : capi::meshes_of(meshes, count)) {
-      loaded.scene.objects.push_back(
-          capi::object_of(std::move(mesh), loaded.scene.materials.size()));
-      loaded.scene.materials.push_back(std::move(material));
-    }
+    loaded.scene = capi::scene_of(capi::meshes_of(meshes, count));
     validate(loaded.scene);
     *scene = capi::prepared(std::move(loaded), threads);
   });
@@ -194,6 +205,7 @@ mt_status mt_scene_from_instances(const mt_mesh* meshes, size_t mesh_count,
     if (instance_count > 0) require(instances, "instances");
     require(scene, "scene");
     std::vector<capi::ColoredMesh> shared = capi::meshes_of(meshes, mesh_count);
+    validate(capi::scene_of(shared));  // also the meshes without instances
     LoadedScene loaded;
     for (auto& [mesh, material] : shared) loaded.scene.materials.push_back(std::move(material));
     if (instance_count >= kNoPrimitive)

@@ -188,7 +188,7 @@ std::vector<DatasetView> read_npz_views(std::string_view bytes, const std::strin
   const auto sizes = column("size", {{2}}), times = column("time", {{}});
   if (!sizes && !image) {
     throw Error(ErrorKind::invalid_scene, file,
-                "array size is missing: add it, with width and height, or use --size");
+                "array size is missing: add it, with width and height, or choose one (--size)");
   }
   std::vector<DatasetView> views(count);
   for (std::size_t i = 0; i < count; ++i) {

@@ -97,6 +97,10 @@ static void rays(const mt_scene* scene) {
   CHECK(mt_scene_object_name(NULL, 0) == NULL && mt_scene_warnings(NULL) == NULL);
   CHECK(mt_film_width(NULL) == 0 && mt_film_height(NULL) == 0 &&
         mt_film_channel_name(NULL, 0) == NULL);
+  CHECK(mt_next(scene, all, NULL, 1, 0, hits) == MT_USAGE);
+  CHECK(strstr(mt_last_error(), "after") != NULL);
+  CHECK(mt_surfaces(scene, all, NULL, 1, 0, surfaces) == MT_USAGE);
+  CHECK(strstr(mt_last_error(), "hits") != NULL);
   hits[0].primitive = 12;
   CHECK(mt_next(scene, all, hits, 1, 0, hits) == MT_USAGE);
   CHECK(mt_surfaces(scene, all, hits, 1, 0, surfaces) == MT_USAGE);
@@ -119,6 +123,10 @@ static void wrong_meshes(void) {
   mesh = cube();
   mesh.size = 3;
   CHECK(mt_scene_from_meshes(&mesh, 1, 1, &scene) == MT_USAGE && scene == NULL);
+  mt_mesh two[2] = {cube(), cube()};
+  two[1].size = offsetof(mt_mesh, color_stride);
+  CHECK(mt_scene_from_meshes(two, 2, 1, &scene) == MT_USAGE && scene == NULL);
+  CHECK(strstr(mt_last_error(), "mesh 1") != NULL);
   mesh = cube();
   mesh.indices = NULL; /* 8 vertices are no 12 triangles */
   CHECK(mt_scene_from_meshes(&mesh, 1, 1, &scene) == MT_INVALID_SCENE && scene == NULL);
@@ -261,6 +269,8 @@ static void pictures(const mt_scene* scene, const char* folder) {
   options.progress = NULL;
   options.aovs = "depth,weight";
   CHECK(mt_render(scene, &options, &film) == MT_USAGE && strstr(mt_last_error(), "weight") != NULL);
+  options.aovs = "depth,";
+  CHECK(mt_render(scene, &options, &film) == MT_USAGE);
   options.aovs = NULL;
   options.integrator = 77;
   CHECK(mt_render(scene, &options, &film) == MT_USAGE);

@@ -139,6 +139,14 @@ static void wrong_instances(const mt_mesh* mesh, const mt_instance* instances) {
   wrong[1].scene_from_mesh[2][3] = NAN;
   CHECK(mt_scene_from_instances(mesh, 1, wrong, 2, 1, &scene) == MT_INVALID_SCENE && scene == NULL);
   CHECK(strstr(mt_last_error(), "finite") != NULL);
+  mt_mesh unused[2] = {mesh[0], mesh[0]};
+  unused[1].roughness = -1;
+  CHECK(mt_scene_from_instances(unused, 2, instances, 1, 1, &scene) == MT_INVALID_SCENE);
+  CHECK(strstr(mt_last_error(), "/materials/1") != NULL && scene == NULL);
+  unused[1] = mesh[0];
+  unused[1].position_count = 1;
+  CHECK(mt_scene_from_instances(unused, 2, instances, 1, 1, &scene) == MT_INVALID_SCENE);
+  CHECK(strstr(mt_last_error(), "/objects/1") != NULL && scene == NULL);
   CHECK(mt_scene_from_instances(mesh, 1, NULL, 2, 1, &scene) == MT_USAGE && scene == NULL);
   CHECK(mt_scene_from_instances(mesh, 1, wrong, (size_t)-1 / 512, 1, &scene) == MT_LIMIT &&
         scene == NULL);

@@ -25,7 +25,7 @@ void choose_variant(const Asset& asset, const std::string& variant, Model& model
   if (variant.empty()) return;
   const std::vector<std::string> names = variant_names(asset);
   if (names.empty())
-    throw Error(ErrorKind::usage, asset.file(), "has no variants; leave out --variant");
+    throw Error(ErrorKind::usage, asset.file(), "has no variants, so none can be chosen");
   const std::optional<std::size_t> index = find_item(variant, names);
   if (!index) throw Error(ErrorKind::usage, asset.file(), no_such_item("variant", variant, names));
   const auto wanted = static_cast<double>(*index);
