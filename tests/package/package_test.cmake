@@ -87,6 +87,15 @@ function(check_library)
   check_pictures(${pictures})
 endfunction()
 
+# Builds a C program without CMake.
+function(check_pkg_config)
+  run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${prefix}/${LIBDIR}/pkgconfig pkg-config --cflags --libs ${ARGN} microtrace)
+  separate_arguments(options NATIVE_COMMAND "${output} ${FLAGS}")
+  file(WRITE ${WORK}/version.c "#include <microtrace/microtrace.h>\nint main(void) { return mt_version()[0] == 0; }\n")
+  run(cc ${WORK}/version.c -o ${prefix}-version ${options} -Wl,-rpath,${prefix}/${LIBDIR})
+  run(${prefix}-version)
+endfunction()
+
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 
@@ -94,6 +103,7 @@ file(MAKE_DIRECTORY ${WORK})
 set(prefix ${WORK}/static)
 install_to(${prefix} Unspecified static)
 check_library()
+check_pkg_config(--static)
 run(python3 ${SOURCE}/tests/package/exported_test.py ${prefix}/${LIBDIR}/libmicrotrace.a ${prefix}/include)
 foreach(file lib/cmake/microtrace/microtraceConfig.cmake share/man/man1/microtrace.1 share/doc/microtrace/LICENSE
         share/doc/microtrace/README.md share/doc/microtrace/docs/scene.schema.json
@@ -138,6 +148,7 @@ endif()
 set(prefix ${WORK}/shared)
 install_to(${prefix} Unspecified shared)
 check_library()
+check_pkg_config()
 run(readelf --dynamic ${prefix}/${LIBDIR}/libmicrotrace.so)
 if(NOT output MATCHES "SONAME[^\n]*libmicrotrace\\.so\\.[0-9]+\\.[0-9]+\\]")
   message(FATAL_ERROR "the shared library has no version in its name:\n${output}")
