@@ -14,9 +14,8 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <ranges>
+#include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace microtrace::capi {
@@ -66,11 +65,10 @@ Camera camera_of(const mt_render_options& options, const Scene& scene, ImageSize
 std::vector<Aov> aovs_of(const char* names) {
   std::vector<Aov> aovs;
   if (names == nullptr || *names == '\0') return aovs;
-  for (const auto part : std::views::split(std::string_view(names), ',')) {
-    const std::string_view name(part.begin(), part.end());
+  std::istringstream parts(std::string(names) + ',');
+  for (std::string name; std::getline(parts, name, ',');) {
     const auto aov = aov_named(name);
-    if (!aov)
-      refuse("there is no output named \"" + std::string(name) + "\" for mt_render_options::aovs");
+    if (!aov) refuse("there is no output named \"" + name + "\" for mt_render_options::aovs");
     aovs.push_back(*aov);
   }
   return aovs;

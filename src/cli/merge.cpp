@@ -89,18 +89,20 @@ bool merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
   }
   if (!missing.empty() && !arguments.quiet)
     std::fprintf(stderr, "warning: %s: %s\n", printable(place).c_str(), missing.c_str());
+  Display display;
   if (!picture.empty()) {
     Film film = picture_of(all);
     if (denoiser != nullptr) denoiser->denoise(film, {.memory = &budget});
     remove_channels(film, all.only_for_denoising);
     apply_display(film, arguments.display);
+    display = film.display;
     save_image(film, picture, arguments.ppm);
   }
   if (!merged.empty()) save_checkpoint(all, merged);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   if (!arguments.quiet) {
     report_written({.main = picture.empty() ? merged : picture, .sidecar = {}},
-                   all.sums.window.size(), all.sums.count(), arguments.display, seconds.count());
+                   all.sums.window.size(), all.sums.count(), display, seconds.count());
   }
   return true;
 }

@@ -235,6 +235,8 @@ class AutomaticExposure(ProgramTest):
         self.assertEqual(self.center("--integrator", "flat", "--exposure", "auto")[2].count("exposure"), 0)
         self.assertNotIn("exposure", self.run_program(CUBE, "--size", "8x6", "-o", "cube.ppm").stderr.decode())
         self.assertIn("exposure -1.5,", self.run_program(CUBE, "--size", "8x6", "--exposure", "-1.5", "-o", "cube.ppm").stderr.decode())
+        self.assertNotIn("exposure", self.run_program(CUBE, "--size", "8x6", "--aov", "depth", "--exposure", "3",
+                                                      "-o", "depth.ppm").stderr.decode())
 
     def test_commands_without_it(self):
         for command in (("merge", "a", "-o", "b.png"), ("compare", "a.png", "b.png"), ("dataset", CUBE, "-o", "d")):

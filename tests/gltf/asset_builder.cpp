@@ -186,14 +186,19 @@ std::string mutated(const AssetBuilder& asset, const char* where, const char* va
   return json.dump(1);
 }
 
+LoadedScene load_gltf(std::string_view bytes, const std::string& name,
+                      const std::filesystem::path& folder, const DMat4& world_from_asset,
+                      const LoadOptions& options) {
+  return io::GltfFile(bytes, name, folder, options).placed(options.time, world_from_asset);
+}
 LoadedScene load(const std::string& bytes) {
-  return io::load_gltf(bytes, "test.gltf", "nowhere");
+  return load_gltf(bytes, "test.gltf", "nowhere");
 }
 LoadedScene load(const AssetBuilder& asset) {
   return load(asset.embedded());
 }
 LoadedScene load(const AssetBuilder& asset, const LoadOptions& options) {
-  return io::load_gltf(asset.embedded(), "test.gltf", "nowhere", DMat4(1), options);
+  return load_gltf(asset.embedded(), "test.gltf", "nowhere", DMat4(1), options);
 }
 
 Vec4 color_of(const LoadedScene& loaded, std::size_t object) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -101,6 +102,11 @@ inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 /// 7396) to the whole asset.
 [[nodiscard]] std::string mutated(const AssetBuilder& asset, const char* where, const char* value);
 
+/// Loads one asset at options.time.
+[[nodiscard]] LoadedScene load_gltf(std::string_view bytes, const std::string& name,
+                                    const std::filesystem::path& folder,
+                                    const DMat4& world_from_asset = DMat4(1),
+                                    const LoadOptions& options = {});
 /// Loads bytes as the file "test.gltf", for which no folder is given.
 [[nodiscard]] LoadedScene load(const std::string& bytes);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);

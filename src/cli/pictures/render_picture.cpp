@@ -257,7 +257,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   if (reports_files(arguments)) {
     report_written({.main = arguments.sampling.shard ? files.samples->checkpoint() : files.picture,
                     .sidecar = files.sidecar},
-                   film.size(), counts.samples_per_pixel, display, watch.seconds());
+                   film.size(), counts.samples_per_pixel, film.display, watch.seconds());
   }
   watch.report(arguments.statistics, drawn, film.size(), counts, options.threads, *options.memory);
   if (failure) std::rethrow_exception(failure);

@@ -10,7 +10,7 @@
 namespace microtrace::cli {
 
 void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t samples,
-                    const DisplayOptions& display, double seconds) {
+                    const Display& display, double seconds) {
   std::string names;
   for (const std::filesystem::path& file : {files.main, files.sidecar}) {
     if (file.empty() || file == "-") continue;
@@ -18,8 +18,8 @@ void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t sam
   }
   if (names.empty()) return;
   std::string exposure;
-  if (display.exposure.value_or(0) != 0)
-    exposure = " exposure " + shortest(*display.exposure) + ",";
+  if (display.srgb && display.exposure != 0)
+    exposure = " exposure " + shortest(display.exposure) + ",";
   std::fprintf(stderr, "wrote %s: %u x %u pixels, %s each,%s in %.*f s\n", names.c_str(),
                size.width, size.height, counted(samples, "sample").c_str(), exposure.c_str(),
                seconds < 1 ? 3 : 1, seconds);

@@ -1,8 +1,6 @@
 #pragma once
 /// The line on standard error that lists the files that a run has written.
 
-#include "cli/arguments.hpp"
-
 #include <microtrace/film.hpp>
 
 #include <cstdint>
@@ -16,9 +14,9 @@ struct WrittenFiles {
 };
 
 /// Prints a line like "wrote a.png: 640 x 480 pixels, 64 samples each, exposure -2.5, in 1.2 s".
-/// Names the exposure only if it was chosen and isn't 0. Prints nothing about files that are
-/// standard output.
+/// Names the exposure only if it changes the picture. Prints nothing about files that are standard
+/// output.
 void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t samples,
-                    const DisplayOptions& display, double seconds);
+                    const Display& display, double seconds);
 
 }  // namespace microtrace::cli

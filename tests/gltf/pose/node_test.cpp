@@ -115,8 +115,7 @@ TEST(GltfNode, MirroringReversesTheWinding) {
 TEST(GltfNode, TheCallersTransformIsAppliedLast) {
   DMat4 world_from_asset(2);
   world_from_asset[3] = {100, 0, 0, 1};
-  const LoadedScene loaded =
-      io::load_gltf(triangle().embedded(), "test.gltf", "", world_from_asset);
+  const LoadedScene loaded = load_gltf(triangle().embedded(), "test.gltf", "", world_from_asset);
   EXPECT_THAT(first_object(loaded),
               ElementsAre(std::array{Vec3(100, 0, 0), Vec3(102, 0, 0), Vec3(100, 4, 0)}));
 }

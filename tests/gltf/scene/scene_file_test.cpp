@@ -1,5 +1,4 @@
 #include "gltf/asset_builder.hpp"
-#include "io/gltf/scene/scene.hpp"
 #include "support/source_folder.hpp"
 
 #include <microtrace/io.hpp>
@@ -21,7 +20,7 @@ LoadedScene load_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream bytes;
   bytes << file.rdbuf();
-  return io::load_gltf(bytes.str(), path.filename().string(), path.parent_path());
+  return load_gltf(bytes.str(), path.filename().string(), path.parent_path());
 }
 
 std::filesystem::path scene(const char* name) {
@@ -41,13 +40,13 @@ TEST(GltfSceneFile, LoadsExternalBuffers) {
   // A file may be longer than the buffer's byteLength.
   std::ofstream(folder / "a b" / "cube.bin", std::ios::binary) << cube().buffer << "more";
   const std::string json = cube().with_buffer("a%20b/cube.bin").dump();
-  const LoadedScene loaded = io::load_gltf(json, "cube.gltf", folder);
+  const LoadedScene loaded = load_gltf(json, "cube.gltf", folder);
   EXPECT_EQ(triangles_of(loaded.scene.objects.at(0)),
             triangles_of(load(cube()).scene.objects.at(0)));
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 
   std::ofstream(folder / "a b" / "cube.bin", std::ios::binary) << "short";
-  EXPECT_THROW((void)io::load_gltf(json, "cube.gltf", folder), Error);
+  EXPECT_THROW((void)load_gltf(json, "cube.gltf", folder), Error);
   std::filesystem::remove_all(folder);
 }
 

@@ -250,10 +250,4 @@ LoadedScene GltfFile::placed(std::optional<double> time, const DMat4& world_from
                  [&] { return content_->scene(content_->pose(time), world_from_asset, copies); });
 }
 
-LoadedScene load_gltf(std::string_view bytes, const std::string& name,
-                      const std::filesystem::path& folder, const DMat4& world_from_asset,
-                      const LoadOptions& options) {
-  return GltfFile(bytes, name, folder, options).placed(options.time, world_from_asset);
-}
-
 }  // namespace microtrace::io

@@ -44,10 +44,4 @@ class GltfFile {
   std::unique_ptr<Content> content_;
 };
 
-/// Reads one asset and poses it at options.time (see GltfFile::placed).
-[[nodiscard]] LoadedScene load_gltf(std::string_view bytes, const std::string& name,
-                                    const std::filesystem::path& folder,
-                                    const DMat4& world_from_asset = DMat4(1),
-                                    const LoadOptions& options = {});
-
 }  // namespace microtrace::io
