@@ -5,6 +5,7 @@
 #include "accel/instances/tree_walk.hpp"
 #include "accel/layout.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace microtrace {
@@ -13,6 +14,17 @@ namespace microtrace {
 [[nodiscard]] inline bool overlap(const Bounds& a, const Bounds& b) {
   for (int k = 0; k < 3; ++k) {
     if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
+  }
+  return true;
+}
+
+/// Returns true if the bounding box of the triangle in a slot overlaps a box.
+[[nodiscard]] inline bool overlaps(const TriangleBlock& block, std::size_t slot,
+                                   const Bounds& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const float a = coordinate(block, 0, slot, axis), b = coordinate(block, 1, slot, axis),
+                c = coordinate(block, 2, slot, axis);
+    if (box.hi[axis] < std::min({a, b, c}) || std::max({a, b, c}) < box.lo[axis]) return false;
   }
   return true;
 }
@@ -33,7 +45,7 @@ void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
   };
   const auto visit = [&](const TriangleBlock& block) {
     for (std::size_t i = 0; i < kWidth; ++i)
-      if (is_used(block, i)) f(block.id[i]);
+      if (is_used(block, i) && overlaps(block, i, box)) f(block.id[i]);
   };
   walk_tree(tree, touched, visit, f);
 }
