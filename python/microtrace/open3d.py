@@ -56,8 +56,9 @@ class RaycastingScene:
     """Casts rays against triangles. Rays are float32 arrays of shape (..., 6). Ids are uint32, and
     INVALID_ID for misses.
 
-    Hits are exact: they are the results of real arithmetic on the float32 numbers. If a ray hits
-    several triangles at the same t, the hit is the one that was added first.
+    Hits are exact: they are the results of real arithmetic on the float32 numbers. Hits at the
+    rays' origins count. If a ray hits several triangles at the same t, the hit is the one that was
+    added first.
     """
 
     INVALID_ID = 0xFFFFFFFF
@@ -114,6 +115,7 @@ class RaycastingScene:
         side from which the winding is counterclockwise)."""
         hits = self._prepared().intersect(
             _numbers(rays),
+            t_min=0,
             fields=("t", "object", "primitive", "barycentrics", "face_normal"),
             threads=self._count(nthreads),
         )
@@ -133,7 +135,7 @@ class RaycastingScene:
         return _tensor(
             self._prepared().occluded(
                 _numbers(rays),
-                t_min=None if near <= 0 else near,
+                t_min=max(near, 0),
                 t_max=far,
                 threads=self._count(nthreads),
             )
@@ -221,7 +223,7 @@ class RaycastingScene:
     def _all(self, rays: Array, nthreads: int, fields: Any) -> tuple[Any, Array]:
         """Returns all hits, and for each hit whether it is the first of its ray at its t."""
         found, ties = self._prepared()._intersect_all(
-            rays, None, None, fields, self._count(nthreads), finds_ties=True
+            rays, 0, None, fields, self._count(nthreads), finds_ties=True
         )
         return found, ~ties
 

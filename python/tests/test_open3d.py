@@ -87,6 +87,18 @@ def test_crossings(box):
     assert box.test_occlusions(RAYS, tnear=1.5).tolist() == [True, False, False]
 
 
+def test_hits_at_origins_count(box):
+    rays = np.float32([[0.25, 0.5, 0, 0, 0, 1], [0.25, 0.5, 1, 0, 0, 1]])
+    answer = box.cast_rays(rays)
+    assert answer["t_hit"].tolist() == [0, 0]
+    assert answer["primitive_normals"].tolist() == [[0, 0, -1], [0, 0, 1]]
+    for interval in ({}, {"tnear": -1, "tfar": 0}):
+        assert box.test_occlusions(rays, **interval).tolist() == [True, True]
+    assert box.test_occlusions(rays, tnear=2.0**-149).tolist() == [True, False]
+    assert box.count_intersections(rays).tolist() == [2, 1]
+    assert box.list_intersections(rays)["t_hit"].tolist() == [0, 1, 0]
+
+
 def test_points(box):
     points = np.array([[0.5, 0.5, 0.5], [-0.5, -0.5, -0.5], [0, 0, 0]], np.float32)
     assert np.allclose(box.compute_distance(points), [0.5, 0.75**0.5, 0])
