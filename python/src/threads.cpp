@@ -9,6 +9,8 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <new>
+#include <pthread.h>
 #include <string>
 
 namespace microtrace::python {
@@ -49,6 +51,13 @@ class Calls {
 
 Calls calls;
 
+/// Runs in a forked process. The calls of the parent's other threads don't end there, and one of
+/// these threads may have locked the mutex. The objects that they use remain.
+void forget_calls() {
+  new (&calls) Calls;
+  nb::set_leak_warnings(false);
+}
+
 /// A running call.
 class Call {
  public:
@@ -75,6 +84,7 @@ void bind_threads(nb::module_& module) {
     calls.cancel();
   });
   nb::module_::import_("atexit").attr("register")(module.attr("_cancel_all"));
+  pthread_atfork(nullptr, nullptr, forget_calls);
 }
 
 void run_unlocked(const std::function<void()>& f) {
