@@ -105,14 +105,20 @@ def error_of(code: int, diagnostic: Diagnostic, number: int = 0) -> Error:
     kind = _CLASSES.get(code, Error)
     if kind is FileError and number == errno.ENOENT:
         kind = MissingFileError
-    error = kind(diagnostic.text)
-    error.diagnostic = diagnostic
-    if isinstance(error, FileError):
-        if number != 0:
-            error.errno, error.strerror = number, os.strerror(number)
-        if diagnostic.pointer == "":  # otherwise, the message is about a file that this one names
-            error.filename = diagnostic.file or None
+    error = kind()
+    set_diagnostic(error, diagnostic)
+    if isinstance(error, FileError) and number != 0:
+        error.errno, error.strerror = number, os.strerror(number)
     return error
+
+
+def set_diagnostic(error: Error, diagnostic: Diagnostic) -> None:
+    """Makes an error say what a diagnostic says."""
+    error.args = (diagnostic.text,)
+    error.diagnostic = diagnostic
+    # With a pointer, the message is about a file that this one names.
+    if isinstance(error, FileError) and diagnostic.pointer == "":
+        error.filename = diagnostic.file or None
 
 
 def warn_caller(warning: Warning) -> None:

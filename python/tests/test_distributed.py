@@ -144,6 +144,16 @@ def test_files_of_the_scene_and_environments_reach_the_workers(
     assert chaos.files_of(tmp_path / "many") == chaos.files_of(tmp_path / "one")
 
 
+def test_errors_name_the_files_of_the_client(client, tmp_path):
+    scene = SCENES / "gltf" / "moving.glb"
+    options = ["--frames=0:1", "--size=16x12", "--spp=1"]
+    with pytest.raises(mt.UsageError) as caught:
+        md.dataset(client, scene, tmp_path / "set", formats=["bop"], options=options)
+    diagnostic = caught.value.diagnostic
+    assert diagnostic.file == str(scene)
+    assert str(caught.value) == diagnostic.text and diagnostic.text.startswith(f"{scene}: ")
+
+
 def test_wrong_arguments(client, tmp_path):
     scene = SCENES / "perspective1.json"
     with pytest.raises(ValueError, match="--shard"):

@@ -11,14 +11,14 @@ import time
 import uuid
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from distributed import Client, WorkerPlugin, get_worker
 
 from .. import __version__
-from ..errors import Diagnostic, error_of
+from ..errors import Diagnostic, Error, error_of, set_diagnostic
 from ._ranges import Outcome
 
 
@@ -174,3 +174,20 @@ def temporary_folder(parent: str) -> str:
     """Creates a folder for files of this process."""
     Path(parent).mkdir(parents=True, exist_ok=True)
     return tempfile.mkdtemp(prefix="microtrace-", dir=parent)
+
+
+def renamed(diagnostic: Diagnostic, copies: Path) -> Diagnostic:
+    """Names a file of the client instead of its copy below the folder `copies`."""
+    names = ("file", "message", "text")
+    texts = {name: getattr(diagnostic, name).replace(str(copies), "") for name in names}
+    return replace(diagnostic, **texts)
+
+
+@contextmanager
+def client_names(copies: Path) -> Iterator[None]:
+    """Lets errors name the client's files, as renamed() does."""
+    try:
+        yield
+    except Error as error:
+        set_diagnostic(error, renamed(error.diagnostic, copies))
+        raise

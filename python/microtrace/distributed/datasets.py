@@ -8,7 +8,7 @@ import shutil
 import tempfile
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,9 @@ from ._worker import (
     Stopwatch,
     attempt,
     broadcast,
+    client_names,
     made_from,
+    renamed,
     require_synchronous,
     temporary_folder,
 )
@@ -79,21 +81,22 @@ class _Views:
 
     def __init__(self, content: _Content, parent: str) -> None:
         self.folder = temporary_folder(parent)
+        self.copies = Path(self.folder, "files")
         self.lock = threading.Lock()
         self._store = content.store
         self._is_new = content.is_new
         self._description = content.description
         try:
-            root = Path(self.folder, "files")
             for path, data in content.files.items():
-                copy = Path(f"{root}{path}")
+                copy = Path(f"{self.copies}{path}")
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 copy.write_bytes(data)
-            words = _moved(content.words, content.folder, root)
+            words = _moved(content.words, content.folder, self.copies)
             if not any(word.startswith("--threads") for word in words):
                 words.append(f"--threads={get_worker().state.nthreads}")
             find_denoiser()
-            self._core = _core.Dataset(words, content.folder, root)
+            with client_names(self.copies):
+                self._core = _core.Dataset(words, content.folder, self.copies)
         except BaseException:
             shutil.rmtree(self.folder, ignore_errors=True)
             raise
@@ -119,11 +122,7 @@ class _Views:
 
     def take_warnings(self) -> list[Diagnostic]:
         """Returns new warnings, with the names of the client's files."""
-        root = str(Path(self.folder, "files"))
-        return [
-            replace(w, file=w.file.replace(root, ""), text=w.text.replace(root, ""))
-            for w in self._core.take_warnings()
-        ]
+        return [renamed(warning, self.copies) for warning in self._core.take_warnings()]
 
 
 def _moved(words: Sequence[str], folder: str, root: Path) -> list[str]:
@@ -153,7 +152,8 @@ def render_views(job: Job, first: int, last: int) -> Outcome:
         with views.lock:
             watch = Stopwatch()
             wanted = (int(views.order[i]) for i in range(first, last))
-            rendered = [view for view in wanted if views.render(view)]
+            with client_names(views.copies):
+                rendered = [view for view in wanted if views.render(view)]
             return watch.seconds(), (rendered, views.take_warnings())
 
     return attempt(job, work)
