@@ -485,8 +485,12 @@ def _shutter_arguments(shutter: Shutter) -> tuple[Any, ...]:
     if not callable(shutter.moment):
         raise TypeError(f"moment must be a function of the time, not {shutter.moment!r}")
     times = as_integer(shutter.times, "times", 1, 65536)
-    ends = (as_float(getattr(shutter, end), end) for end in ("open", "close"))
-    return moment, *ends, times
+    if times.bit_count() != 1:
+        raise ValueError(f"times must be a power of two from 1 to 65536, not {times}")
+    begin, end = (as_float(getattr(shutter, name), name) for name in ("open", "close"))
+    if not -np.inf < begin <= end < np.inf:
+        raise ValueError(f"open and close must be finite, and open at most close: {begin}, {end}")
+    return moment, begin, end, times
 
 
 def _checked(aovs: Iterable[str]) -> list[str]:

@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "fields.hpp"
 #include "images.hpp"
+#include "member_names.hpp"
 #include "scene/validate/validate.hpp"
 #include "values.hpp"
 
@@ -131,6 +132,14 @@ class Reader {
     if (!value.is_none()) to = texture_use_of(value);
   }
   template <class T>
+  void read(const nb::handle& value, Array<T>& to) {
+    if (!value.is_none()) to = rows_of<T>(value, field_);
+  }
+  void read(const nb::handle& value, ShortVector<Array<Vec2>>& to) {
+    for (const nb::handle set : list_of(value, field_, "a list"))
+      to.push_back(set.is_none() ? Array<Vec2>() : rows_of<Vec2>(set, "each set of uv"));
+  }
+  template <class T>
   void read(const nb::handle& value, std::optional<T>& to) {
     if (value.is_none()) return;
     if (!is<T>(value)) refuse(field_, std::string("a microtrace.") + Class<T>::kName, value);
@@ -220,11 +229,6 @@ class Reader {
   }
 
   template <class T>
-  static void read_rows(const nb::handle& mesh, const char* name, Array<T>& to) {
-    const nb::object values = mesh.attr(name);
-    if (!values.is_none()) to = rows_of<T>(values, name);
-  }
-  template <class T>
   static Array<T> rows_of(const nb::handle& values, const char* name) {
     using Number = typename Array<T>::Number;
     const char* check = std::is_floating_point_v<Number> ? "as_rows" : "as_indices";
@@ -234,21 +238,7 @@ class Reader {
 
   /// Returns a mesh whose arrays are shared by all objects with the same Python object.
   Mesh mesh_of(const nb::handle& mesh) {
-    return meshes_[places_of_meshes_.of(mesh, [&] { meshes_.push_back(arrays_of(mesh)); })];
-  }
-
-  static Mesh arrays_of(const nb::handle& mesh) {
-    Mesh result;
-    read_rows(mesh, "vertices", result.positions);
-    read_rows(mesh, "faces", result.triangles);
-    read_rows(mesh, "normals", result.normals);
-    read_rows(mesh, "tangents", result.tangents);
-    read_rows(mesh, "colors", result.colors);
-    read_rows(mesh, "segments", result.segments);
-    for (const nb::handle set : list_of(mesh.attr("uv"), "uv", "a list"))
-      result.uv_sets.push_back(set.is_none() ? Array<Vec2>()
-                                             : rows_of<Vec2>(set, "each set of uv"));
-    return result;
+    return meshes_[places_of_meshes_.of(mesh, [&] { meshes_.push_back(fields_of<Mesh>(mesh)); })];
   }
 
   static std::shared_ptr<const Placement> placement_of(const nb::handle& value) {
@@ -260,7 +250,7 @@ class Reader {
   }
 
   Shape shape_of(const nb::handle& shape) {
-    if (is(shape, "shapes", "Mesh")) return mesh_of(shape);
+    if (is<Mesh>(shape)) return mesh_of(shape);
     if (is<Sphere>(shape)) return fields_of<Sphere>(shape);
     if (is<Plane>(shape)) return fields_of<Plane>(shape);
     if (is<Disc>(shape)) return fields_of<Disc>(shape);
@@ -374,12 +364,14 @@ Scene scene_from_python(const nb::handle& scene) {
 
 Camera camera_from_python(const nb::handle& camera) {
   Camera result = Reader(camera).camera_of(camera);
-  if (const auto broken = validate(result)) {
-    throw Error(broken->kind, {.file = {},
-                               .pointer = "/camera/" + broken->field,
-                               .message = broken->message,
-                               .excerpt = {}});
-  }
+  with_python_names([&] {
+    if (const auto broken = validate(result)) {
+      throw Error(broken->kind, {.file = {},
+                                 .pointer = "/camera/" + broken->field,
+                                 .message = broken->message,
+                                 .excerpt = {}});
+    }
+  });
   return result;
 }
 

@@ -73,6 +73,15 @@ class Writer {
   nb::object value(const std::optional<double>& v) { return v ? nb::cast(*v) : nb::none(); }
   nb::object value(const std::optional<TextureUse>& v) { return v ? use_of(*v) : nb::none(); }
   template <class T>
+  nb::object value(const Array<T>& v) {
+    return to_python(v);
+  }
+  nb::object value(const ShortVector<Array<Vec2>>& v) {
+    nb::list sets;
+    for (const auto& set : v) sets.append(to_python(set));
+    return nb::tuple(sets);
+  }
+  template <class T>
   nb::object value(const std::optional<T>& v) {
     return v ? object_of(*v) : nb::none();
   }
@@ -138,20 +147,6 @@ class Writer {
     arguments["coefficients"] = nb::make_tuple(q.a, q.b, q.c, q.d, q.e, q.f, q.g, q.h, q.i, q.j);
     return make("shapes", "Quadric", arguments);
   }
-  nb::object shape_of(const Mesh& mesh) {
-    nb::list sets;
-    for (const auto& set : mesh.uv_sets) sets.append(to_python(set));
-    nb::dict arguments;
-    arguments["vertices"] = to_python(mesh.positions);
-    arguments["faces"] = to_python(mesh.triangles);
-    arguments["normals"] = to_python(mesh.normals);
-    arguments["tangents"] = to_python(mesh.tangents);
-    arguments["uv"] = nb::tuple(sets);
-    arguments["colors"] = to_python(mesh.colors);
-    arguments["segments"] = to_python(mesh.segments);
-    return make("shapes", "Mesh", arguments);
-  }
-
   /// Returns one object for all meshes that share their arrays.
   nb::object shared_mesh_of(const Mesh& mesh) {
     const Mesh& first = shared_.find_or_add(mesh).mesh;

@@ -1,6 +1,7 @@
 /// Binds loading and preparing of scenes.
 
 #include "common.hpp"
+#include "member_names.hpp"
 #include "prepared.hpp"
 #include "scene/math/srgb.hpp"
 #include "scene/support.hpp"
@@ -74,7 +75,7 @@ void prepare(Prepared* self, const nb::object& source, const nb::object& previou
   PrepareOptions options{.fast_build = fast_build, .threads = threads};
   if (!previous.is_none()) options.tables = nb::cast<const Prepared&>(previous).scene.tables();
   run_unlocked([&] {
-    validate(scene);
+    with_python_names([&] { validate(scene); });
     new (self) Prepared{PreparedScene(std::move(scene), std::move(options)), integrator == "flat",
                         has_background};
   });

@@ -177,7 +177,7 @@ def test_own_arrays_are_copied():
     vertices[:] = 7
     after = prepared.intersect([0, 0, 5, 0.01, 0.02, -1])
     assert before.t == after.t and np.array_equal(before.normal, after.normal)
-    with pytest.raises(mt.SceneError, match="/objects/0/shape/triangles"):
+    with pytest.raises(mt.SceneError, match="/objects/0/shape/faces"):
         scene.prepare()
 
 
@@ -437,16 +437,20 @@ def scene_with(**changes):
 @pytest.mark.parametrize(
     "scene, error, text",
     [
-        (scene_with(faces=[[0, 1, 3]]), mt.SceneError, "/objects/0/shape/triangles"),
+        (scene_with(faces=[[0, 1, 3]]), mt.SceneError, "/objects/0/shape/faces"),
         (scene_with(faces=[[0, 1, -1]]), ValueError, "must not be negative"),
         (scene_with(faces=[[0, 1, 2**40]]), ValueError, "faces must be less than 2^32"),
         (scene_with(faces=[[0.0, 1, 2]]), TypeError, "integers"),
         (scene_with(faces=[[0, 1]]), ValueError, "(n, 3)"),
         (scene_with(vertices=[[0, 0]] * 3), ValueError, "(n, 3)"),
         (scene_with(vertices=[["x", 0, 0]] * 3), TypeError, "real numbers"),
-        (scene_with(vertices=[[0, 0, np.nan]] * 3), mt.SceneError, "/objects/0/shape/positions"),
+        (scene_with(vertices=[[0, 0, np.nan]] * 3), mt.SceneError, "/objects/0/shape/vertices"),
         (scene_with(normals=[[0, 0, 1]]), mt.SceneError, "normals"),
-        (scene_with(uv=[[[0, 0]]]), mt.SceneError, "uv_sets"),
+        (
+            scene_with(uv=[[[0, 0]]]),
+            mt.SceneError,
+            "/shape/uv: must have as many elements as there are vertices",
+        ),
         (mt.Scene(objects=[mt.Object(mt.Sphere(radius="big"))]), TypeError, "radius"),
         (mt.Scene(objects=[mt.Object(3)]), TypeError, "expected a shape"),
         (mt.Scene(objects=[mt.Object(mt.Quadric([1, 2]))]), TypeError, "coefficients"),
@@ -464,7 +468,7 @@ def scene_with(**changes):
         (
             mt.Scene(lights=[mt.PointLight(intensity=-1)]),
             mt.SceneError,
-            "/lights/0/light/intensity",
+            "/lights/0/intensity",
         ),
         (mt.Scene(environment=mt.Environment((-1, 0, 0))), mt.SceneError, "/environment/content"),
         (mt.Scene(size=(10, -1)), TypeError, "size"),
@@ -474,6 +478,66 @@ def test_wrong_scenes(scene, error, text):
     with pytest.raises(error) as raised:
         scene.prepare()
     assert text in str(raised.value)
+
+
+PARTS = {
+    "specular": (mt.Specular, ("specular_factor", "specular_color_factor")),
+    "transmission": (mt.Transmission, ("transmission_factor",)),
+    "volume": (mt.Volume, ("thickness_factor", "attenuation_distance", "attenuation_color")),
+    "volume_scatter": (mt.VolumeScatter, ("multiscatter_color", "scatter_anisotropy")),
+    "clearcoat": (
+        mt.Clearcoat,
+        ("clearcoat_factor", "clearcoat_roughness_factor", "clearcoat_normal_scale"),
+    ),
+    "sheen": (mt.Sheen, ("sheen_color_factor", "sheen_roughness_factor")),
+    "anisotropy": (mt.Anisotropy, ("anisotropy_strength", "anisotropy_rotation")),
+    "iridescence": (
+        mt.Iridescence,
+        (
+            "iridescence_factor",
+            "iridescence_ior",
+            "iridescence_thickness_minimum",
+            "iridescence_thickness_maximum",
+        ),
+    ),
+    "diffuse_transmission": (
+        mt.DiffuseTransmission,
+        ("diffuse_transmission_factor", "diffuse_transmission_color_factor"),
+    ),
+    "specular_glossiness": (mt.SpecularGlossiness, ("specular_factor", "glossiness_factor")),
+}
+OF_MATERIALS = ("base_color_factor", "metallic_factor", "roughness_factor", "emissive_factor")
+
+
+def with_nan(kind, name):
+    """Returns an object of a class with NaN in an attribute."""
+    result = kind()
+    value = getattr(result, name)
+    nan = (np.nan,) * len(value) if isinstance(value, tuple) else np.nan
+    setattr(result, name, nan)
+    return result
+
+
+def test_errors_have_the_names_of_attributes():
+    scenes = {}
+    for name in OF_MATERIALS:
+        scenes[f"/materials/0/{name}"] = mt.Scene(materials=[with_nan(mt.Material, name)])
+    for part, (kind, names) in PARTS.items():
+        for name in names:
+            material = mt.Material(**{part: with_nan(kind, name)})
+            scenes[f"/materials/0/{part}/{name}"] = mt.Scene(materials=[material])
+    spot = mt.SpotLight(inner_cone_angle=1, outer_cone_angle=0.5)
+    scenes["/lights/0/outer_cone_angle"] = mt.Scene(lights=[spot])
+    scenes["/lights/0/position"] = mt.Scene(lights=[mt.PointLight((np.nan, 0, 0))])
+    scenes["/cameras/0/vertical_fov"] = mt.Scene(cameras=[mt.PerspectiveCamera(vertical_fov=9)])
+    for pointer, scene in scenes.items():
+        with pytest.raises(mt.SceneError) as caught:
+            scene.prepare()
+        assert caught.value.diagnostic.pointer == pointer
+    with pytest.raises(mt.SceneError, match="must be above inner_cone_angle, "):
+        mt.Scene(lights=[spot]).prepare()
+    with pytest.raises(mt.SceneError, match="number of vertices, 3$"):
+        scene_with(faces=[[0, 1, 3]]).prepare()
 
 
 def test_errors_of_files(tmp_path):
