@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -175,6 +176,8 @@ struct Explanation {
 struct ExplainOptions {
   std::size_t max_hits = 1000;  ///< maximum number of hits, and of crossings before and after them
   std::size_t max_misses = 64;  ///< misses are explained in scenes of at most this many primitives
+  /// Called before each primitive is explained. If it returns true, Error (canceled) is thrown.
+  std::function<bool()> cancel{};
 };
 
 /// Explains a ray in world space. Textures are looked up without a footprint, because the ray

@@ -261,11 +261,14 @@ PictureOptions options_of(const Prepared& self, const nb::dict& arguments) {
 
 /// Returns the exposure, in stops, at which surfaces are neither blown out nor black.
 double exposure_for(const Prepared& self, const nb::object& camera, const nb::dict& arguments) {
-  const PictureOptions picture = options_of(self, arguments);
+  PictureOptions picture = options_of(self, arguments);
   const Camera from = camera_from_python(camera);
   const ImageSize size = size_of(arguments);
   double exposure = 0;
-  run_unlocked([&] { exposure = automatic_exposure(self.scene, from, size, picture.options); });
+  run_interruptible([&](const std::function<bool()>& cancel) {
+    picture.options.progress = [&](double) { return !cancel(); };
+    exposure = automatic_exposure(self.scene, from, size, picture.options);
+  });
   return exposure;
 }
 

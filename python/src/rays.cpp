@@ -47,9 +47,10 @@ std::string explain_ray(const Prepared& self, const AnyArray& array, const nb::o
   std::vector<Ray> rays;
   Rays(array, t_min, t_max, self.scene.scene().origin).get(0, 1, rays);
   std::string json;
-  run_unlocked([&] {
-    json = explanation_json(explain_in_scene(self.scene, rays.front(),
-                                             {.max_hits = max_hits, .max_misses = max_misses}));
+  run_interruptible([&](const std::function<bool()>& cancel) {
+    json = explanation_json(
+        explain_in_scene(self.scene, rays.front(),
+                         {.max_hits = max_hits, .max_misses = max_misses, .cancel = cancel}));
   });
   return json;
 }

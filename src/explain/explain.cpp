@@ -64,11 +64,17 @@ class Explainer {
   [[nodiscard]] const Primitives& primitives() const { return world_.bvh.primitives(); }
   [[nodiscard]] TracedRay traced() const { return {.bvh = world_.bvh, .ray = ray_}; }
 
+  void throw_if_canceled() const {
+    if (options_.cancel && options_.cancel())
+      throw Error(ErrorKind::canceled, "", "the explanation was canceled");
+  }
+
   void add_hits(Explanation& result) {
     const std::vector<Hit> hits = all_hits(world_.bvh, ray_);
     result.hit_count = hits.size();
     Compositing surfaces(world_, ray_);
     for (std::size_t i = 0; i < hits.size(); ++i) {
+      throw_if_canceled();
       is_met_[hits[i].id] = true;
       // The visible hit is found even if it is beyond the limit.
       const bool is_first = !result.visible && world_.surfaces.is_visible(world_, ray_, hits[i]);
@@ -126,6 +132,7 @@ class Explainer {
     hits.resize(std::min(hits.size(), options_.max_hits));
     if (is_reversed) std::ranges::reverse(hits);
     for (const Hit& hit : hits) {
+      throw_if_canceled();
       const double t = exact_t(along, hit.id);
       result.crossings.push_back(
           {.primitive = explain_primitive(traced(), hit.id, stages_of(traced(), hit.id).hit),
@@ -154,6 +161,7 @@ class Explainer {
     result.misses.emplace();
     for (PrimitiveId id = 0; id < primitives().count(); ++id) {
       if (is_met_[id]) continue;
+      throw_if_canceled();
       ExplainedPrimitive primitive = explain_primitive(traced(), id, stages_of(traced(), id).hit);
       std::string reason = miss_reason(primitive.numbers);
       result.misses->push_back({.primitive = std::move(primitive), .reason = std::move(reason)});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -74,9 +75,12 @@ double automatic_exposure(const PreparedScene& scene, const Camera& camera, Imag
   std::optional<Environment> environment =
       options.environment ? options.environment : scene.scene().environment;
   if (environment) environment->is_background = false;
+  std::function<bool(double)> progress;
+  if (options.progress) progress = [&](double) { return options.progress(0); };
   Film film = render(scene, camera, small(size),
                      {.threads = options.threads,
                       .run_threads = options.run_threads,
+                      .progress = progress,
                       .integrator = options.integrator,
                       .samples = is_random ? kSamples : 1,
                       .memory = options.memory,
