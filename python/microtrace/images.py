@@ -21,7 +21,8 @@ class Image:
     Args:
         pixels: (height, width) or (height, width, channels) of uint8 or uint16, which are copied.
             The maximum value means 1. The channels are gray; gray and alpha; rgb; or rgb and alpha.
-            Colors are not premultiplied. Pillow's images may have any mode.
+            Colors are not premultiplied. Pillow's images may have any mode except F, I and LAB, and
+            a transparent color.
         name: any text.
     """
 
@@ -92,12 +93,31 @@ class RadianceMap:
 
 #: Modes of Pillow's images whose pixels are the numbers of an Image.
 _DIRECT_MODES = ("L", "LA", "RGB", "RGBA", "I;16", "I;16L", "I;16B", "I;16N")
+#: The modes that Pillow converts to others.
+_CONVERSIONS = {
+    **dict.fromkeys(("1", "P", "PA", "RGBa", "RGBX", "CMYK", "YCbCr", "HSV"), "RGBA"),
+    "La": "LA",
+}
 
 
 def _direct(pixels: Any) -> Any:
-    """Converts Pillow's images with palettes or other color spaces than RGB."""
-    is_pillow = hasattr(pixels, "mode") and hasattr(pixels, "convert")
-    return pixels.convert("RGBA") if is_pillow and pixels.mode not in _DIRECT_MODES else pixels
+    """Converts Pillow's images with palettes, a transparent color, premultiplied colors, or other
+    color spaces than RGB."""
+    if not (hasattr(pixels, "mode") and hasattr(pixels, "convert")):
+        return pixels
+    mode = pixels.mode
+    has_hole = "transparency" in getattr(pixels, "info", {})
+    if has_hole and mode.startswith("I;16"):
+        gray = np.asarray(pixels)
+        alpha = np.where(gray == pixels.info["transparency"], 0, 65535)
+        return np.stack([gray, alpha], axis=2).astype(np.uint16)
+    if mode in _DIRECT_MODES:
+        return pixels.convert(f"{mode}A") if has_hole and mode in ("L", "RGB") else pixels
+    if mode not in _CONVERSIONS:
+        raise ValueError(
+            f"pixels of Pillow's mode {mode} have no definite colors; convert the image to RGB or L"
+        )
+    return pixels.convert(_CONVERSIONS[mode])
 
 
 def load_map(path: str | PathLike[str]) -> RadianceMap:

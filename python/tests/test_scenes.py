@@ -271,6 +271,11 @@ def test_images_of_pillow():
         assert pixels.shape[:2] == (2, 3)
         assert np.abs(pixels[0, 0].astype(int)[:3] - (255, 0, 0)).max() <= 1, mode
     assert mt.Image(red.convert("1")).pixels.dtype == np.uint8
+    premultiplied = pillow.frombytes("La", (1, 1), bytes((50, 100)))
+    assert mt.Image(premultiplied).pixels.tolist() == [[[127, 100]]]
+    for mode in ("F", "I", "LAB"):
+        with pytest.raises(ValueError, match=f"^pixels of Pillow's mode {mode} have no definite"):
+            mt.Image(pillow.new(mode, (3, 2)))
     gray = pillow.fromarray(np.full((2, 3), 40000, np.uint16))
     assert (mt.Image(gray).pixels == 40000).all()
     scene = mt.Scene()
@@ -279,6 +284,24 @@ def test_images_of_pillow():
         scene.prepare().scene.objects[0].material.base_color_texture.texture.image.pixels[0, 0]
         == [255, 0, 0, 255]
     ).all()
+
+
+def test_transparent_colors_of_pillow():
+    pillow = pytest.importorskip("PIL.Image")
+    for mode, colors, transparent in (
+        ("L", (5, 6), 5),
+        ("RGB", ((255, 0, 0), (0, 0, 255)), (255, 0, 0)),
+        ("P", (0, 1), 0),
+        ("I;16", (500, 600), 500),
+    ):
+        image = pillow.new(mode, (2, 1))
+        for x, color in enumerate(colors):
+            image.putpixel((x, 0), color)
+        image.info["transparency"] = transparent
+        pixels = mt.Image(image).pixels
+        assert pixels[0, :, -1].tolist() == [0, np.iinfo(pixels.dtype).max], mode
+        if mode != "P":
+            assert pixels[0, 1, :-1].tolist() == np.atleast_1d(colors[1]).tolist()
 
 
 def test_truth_values_of_numpy():
