@@ -30,11 +30,19 @@ class Brief:
             default = item.default
             if item.default_factory is not dataclasses.MISSING:
                 default = item.default_factory()
-            if isinstance(value, type(default)) and not _is_array(value) and value == default:
+            if isinstance(value, type(default)) and _is_equal(value, default):
                 continue
             if value is not None or default is dataclasses.MISSING:
                 shown.append(f"{item.name}={text(value)}")
         return f"{type(self).__name__}({', '.join(shown)})"
+
+
+def _is_equal(value: Any, default: Any) -> bool:
+    """Returns False for arrays, and for tuples of arrays, which have no single truth value."""
+    try:
+        return not _is_array(value) and bool(value == default)
+    except ValueError:
+        return False
 
 
 def _is_array(value: Any) -> bool:

@@ -123,7 +123,7 @@ def set_diagnostic(error: Error, diagnostic: Diagnostic) -> None:
 
 def warn_caller(warning: Warning) -> None:
     """Issues a warning that refers to the caller's line outside this package."""
-    package = str(Path(__file__).parent)
+    package = os.path.join(Path(__file__).parent, "")
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
         level, frame = level + 1, frame.f_back

@@ -161,7 +161,8 @@ class Picture(Mapping[str, Array]):
         """Writes one picture to .png, .ppm or .exr. The file appears whole or not at all.
 
         .exr stores color and all other arrays as channels, in the program's layout, and the
-        position of a crop in the whole picture. Other formats store only the color.
+        position of a crop in the whole picture. Other formats store only the color. The path "-" is
+        standard output, which gets a PPM file.
 
         Raises:
             ValueError: this is a stack of several pictures.

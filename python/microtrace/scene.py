@@ -264,7 +264,7 @@ def load(
     """Reads a scene: glTF 2.0 (.gltf, .glb) or microtrace JSON (.json).
 
     Args:
-        path: the file.
+        path: the file; "-" is standard input.
         detail: the attributes to load. "shape" suffices for rays and all AOVs except albedo, and
             decodes only images whose alpha affects visibility. "color" suffices for flat pictures,
             "shape_and_color" for both. "all" is needed for path tracing.

@@ -202,7 +202,8 @@ class RayMeshIntersector:
                 f"origins and directions must both have shape (m, 3), not {o.shape} and {d.shape}"
             )
         greatest = np.abs(d).max(axis=1, keepdims=True, initial=0)
-        scaled = np.divide(d, greatest, out=np.zeros_like(d), where=greatest > 0)
+        with np.errstate(invalid="ignore"):  # infinite directions become NaN, which hits nothing
+            scaled = np.divide(d, greatest, out=np.zeros_like(d), where=greatest > 0)
         return np.concatenate([o - self._center, scaled], axis=1)
 
     def _locations(self, rays: Array, tri: Array, t: Array) -> npt.NDArray[np.float64]:

@@ -92,6 +92,8 @@ def words_of(options: str | Sequence[str]) -> list[str]:
         except ValueError as error:
             raise ValueError(f"options can't be divided into words: {error}") from None
     try:
+        if isinstance(options, bytes):
+            raise TypeError  # its items are numbers
         return [as_text(str(word), "options") for word in options]
     except TypeError:
         raise TypeError(f"options must be a str or a list, not {options!r}") from None

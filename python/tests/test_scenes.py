@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tracemalloc
 import warnings
+from pathlib import Path
 
 import microtrace as mt
 import numpy as np
@@ -582,6 +583,35 @@ def test_warnings_of_files(tmp_path):
         mt.load(path)
     assert warned[0].filename == __file__
     assert warned[0].message.diagnostic.file == str(path)
+
+
+def test_warnings_in_a_folder_whose_name_begins_like_ours(tmp_path):
+    path = tmp_path / "empty.gltf"
+    path.write_text('{"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_unknown"]}')
+    name = str(Path(mt.__file__).parent) + "_application/main.py"
+    with pytest.warns(mt.SceneWarning) as warned:
+        exec(compile("mt.load(path)", name, "exec"), {"mt": mt, "path": path})
+    assert warned[0].filename == name
+
+
+def test_origins_are_never_negative_zeros():
+    assert [str(x) for x in mt.load(SCENES / "gltf" / "knot.glb").origin] == ["0.0"] * 3
+
+
+def test_texts_of_tuples_of_arrays():
+    material = mt.Material(base_color_factor=(np.ones(2), 1, 1, 1))
+    assert repr(material) == "Material(base_color_factor=(<float64 (2,)>, 1, 1, 1))"
+
+
+def test_standard_streams():
+    program = "import microtrace as mt; mt.render(mt.load('-'), size=(4, 3), spp=1).save('-')"
+    run = subprocess.run(
+        [sys.executable, "-c", program],
+        input=(SCENES / "gltf" / "cube.glb").read_bytes(),
+        capture_output=True,
+        check=True,
+    )
+    assert run.stdout.startswith(b"P6\n4 3\n255\n")
 
 
 def test_only_missing_files_are_not_found(tmp_path):

@@ -7,6 +7,7 @@ import itertools
 import pickle
 import subprocess
 import sys
+import warnings
 from fractions import Fraction
 
 import microtrace as mt
@@ -313,3 +314,13 @@ def test_only_loaded_normals_are_used():
     assert normals_of(loaded) is not None
     loaded.vertices *= (1, 3, 1)  # these normals were those of the ball
     assert normals_of(loaded) is None
+
+
+def test_infinite_directions_hit_nothing():
+    mesh = trimesh.creation.box()
+    engine = RayMeshIntersector(mesh)
+    directions = [[np.inf, 0, 0], [-np.inf, np.inf, 1], [np.nan, 0, 0], [0, 0, -1]]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        first = engine.intersects_first([[0, 0, 9]] * 4, directions)
+    assert (first[:3] == -1).all() and first[3] >= 0

@@ -130,6 +130,11 @@ def test_paths_that_no_file_can_have(function):
         function("\ud800.glb")
 
 
+def test_options_that_are_bytes(prepared):
+    with pytest.raises(TypeError, match="^options must be a str or a list, not b'--spp 1'$"):
+        prepared.view(b"--spp 1")
+
+
 def test_masked_arrays(prepared):
     rays = np.ma.masked_array(RAYS, mask=RAYS == 9)
     with pytest.raises(ValueError, match="^rays must not have masked values"):

@@ -239,7 +239,7 @@ LoadedScene GltfFile::at(std::optional<double> time) {
     const gltf::PosedAsset pose = content_->pose(time);
     const DVec3 way = translation_to_origin(content_->bounds(pose));
     LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way), 1);
-    result.scene.origin = -way;
+    result.scene.origin = DVec3(0) - way;  // never -0
     return result;
   });
 }
