@@ -553,6 +553,8 @@ def test_errors_have_the_names_of_attributes():
     spot = mt.SpotLight(inner_cone_angle=1, outer_cone_angle=0.5)
     scenes["/lights/0/outer_cone_angle"] = mt.Scene(lights=[spot])
     scenes["/lights/0/position"] = mt.Scene(lights=[mt.PointLight((np.nan, 0, 0))])
+    calibrated = mt.CalibratedCamera(image_size=(0, 3))
+    scenes["/cameras/0/image_size/width"] = mt.Scene(cameras=[calibrated])
     scenes["/cameras/0/vertical_fov"] = mt.Scene(cameras=[mt.PerspectiveCamera(vertical_fov=9)])
     for pointer, scene in scenes.items():
         with pytest.raises(mt.SceneError) as caught:

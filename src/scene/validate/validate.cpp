@@ -208,8 +208,14 @@ Rule check(const FisheyeDistortion& d) {
   return first(finite("k1", d.k1), finite("k2", d.k2), finite("k3", d.k3), finite("k4", d.k4));
 }
 
+Rule check_image(const CalibratedCamera& camera) {
+  Rule rule = validate(camera.image);
+  if (rule) rule->field.insert(0, rule->field.empty() ? "image" : "image/");
+  return rule;
+}
+
 Rule check(const CalibratedCamera& camera) {
-  return first(check(camera.pose), validate(camera.image), positive("fx", camera.fx),
+  return first(check(camera.pose), check_image(camera), positive("fx", camera.fx),
                positive("fy", camera.fy), finite("cx", camera.cx), finite("cy", camera.cy),
                std::visit([](const auto& d) { return check(d); }, camera.distortion),
                check(camera.depth));
