@@ -15,7 +15,7 @@ Placement at(double x) {
   return Placement(glm::translate(DMat4(1), DVec3(x, 0, 0)));
 }
 
-Object triangle(ObjectName name) {
+Object named_triangle(ObjectName name) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
@@ -26,7 +26,7 @@ Object triangle(ObjectName name) {
 Objects with_run() {
   Objects objects;
   objects.push_back({.name = "first", .shape = Sphere{}});
-  objects.push_back_run(triangle(ObjectName::numbered("tree[", "]")), {at(5), at(6), at(7)});
+  objects.push_back_run(named_triangle(ObjectName::numbered("tree[", "]")), {at(5), at(6), at(7)});
   objects.push_back({.name = "last", .shape = Sphere{}});
   return objects;
 }
