@@ -132,11 +132,11 @@ Object object_of(Mesh mesh, std::size_t material) {
 }
 
 /// Returns the scene whose object i is mesh i.
-Scene scene_of(std::vector<ColoredMesh> meshes) {
+Scene scene_of(const std::vector<ColoredMesh>& meshes) {
   Scene scene;
-  for (auto& [mesh, material] : meshes) {
-    scene.objects.push_back(object_of(std::move(mesh), scene.materials.size()));
-    scene.materials.push_back(std::move(material));
+  for (const auto& [mesh, material] : meshes) {
+    scene.objects.push_back(object_of(mesh, scene.materials.size()));
+    scene.materials.push_back(material);
   }
   return scene;
 }
