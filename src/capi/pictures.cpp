@@ -1,3 +1,4 @@
+#include "base/split_at_commas.hpp"
 #include "capi/handles.hpp"
 #include "scene/validate/validate.hpp"
 
@@ -14,8 +15,8 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace microtrace::capi {
@@ -65,10 +66,10 @@ Camera camera_of(const mt_render_options& options, const Scene& scene, ImageSize
 std::vector<Aov> aovs_of(const char* names) {
   std::vector<Aov> aovs;
   if (names == nullptr || *names == '\0') return aovs;
-  std::istringstream parts(std::string(names) + ',');
-  for (std::string name; std::getline(parts, name, ',');) {
+  for (const std::string_view name : split_at_commas(names)) {
     const auto aov = aov_named(name);
-    if (!aov) refuse("there is no output named \"" + name + "\" for mt_render_options::aovs");
+    if (!aov)
+      refuse("there is no output named \"" + std::string(name) + "\" for mt_render_options::aovs");
     aovs.push_back(*aov);
   }
   return aovs;

@@ -1,5 +1,7 @@
 #include "cli/options/option.hpp"
 
+#include "base/split_at_commas.hpp"
+
 namespace microtrace::cli {
 namespace {
 

@@ -1,6 +1,7 @@
 #include "cli/options/option_value.hpp"
 
 #include "base/printable.hpp"
+#include "base/split_at_commas.hpp"
 
 #include <microtrace/error.hpp>
 
@@ -31,16 +32,6 @@ std::string shortest(double number) {
 
 std::optional<std::uint32_t> whole_number(std::string_view text) {
   return read<std::uint32_t>(text);
-}
-
-std::vector<std::string_view> split_at_commas(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    parts.push_back(text.substr(0, comma));
-    if (comma == std::string_view::npos) return parts;
-    text.remove_prefix(comma + 1);
-  }
 }
 
 std::vector<double> numbers_of(std::string_view text) {

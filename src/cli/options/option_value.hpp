@@ -20,8 +20,6 @@ namespace microtrace::cli {
 /// Parses comma-separated finite numbers. Returns an empty list for any other text.
 [[nodiscard]] std::vector<double> numbers_of(std::string_view text);
 
-[[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
-
 /// Joins the words, as in "a, b or c".
 [[nodiscard]] std::string listed(std::span<const std::string> words);
 

@@ -1,5 +1,6 @@
 #include "cli/options/values.hpp"
 
+#include "base/split_at_commas.hpp"
 #include "scene/math/srgb.hpp"
 #include "scene/validate/validate.hpp"
 
