@@ -407,23 +407,8 @@ def test_interrupt():
     assert time.monotonic() - start < 30  # stopped before the end, which would take hours
 
 
-def test_exit_while_a_thread_renders():
-    program = f"""
-import threading, time
-import microtrace as mt
-prepared = mt.load({str(KNOT)!r}).prepare()
-started = threading.Event()
-def render():
-    mt.render(prepared, size=(8, 8), spp=65536, progress=lambda share: started.set())
-threading.Thread(target=render, daemon=True).start()
-assert started.wait(60)
-"""
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert result.returncode == 0, result.stderr
-    assert result.stderr == ""
-
-
-def test_exit_of_forked_processes_while_a_thread_renders():
+def end_while_a_thread_renders(ending: str) -> None:
+    """Runs a program whose main thread executes `ending` while another one renders."""
     program = f"""
 import os, sys, threading, time
 import microtrace as mt
@@ -433,16 +418,26 @@ def render():
     mt.render(prepared, size=(640, 480), spp=65536, progress=lambda share: started.set())
 threading.Thread(target=render, daemon=True).start()
 assert started.wait(60)
+{ending}
+"""
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    assert result.stderr == ""
+
+
+def test_exit_while_a_thread_renders():
+    end_while_a_thread_renders("")
+
+
+def test_exit_of_forked_processes_while_a_thread_renders():
+    end_while_a_thread_renders("""
 start = time.monotonic()
 for _ in range(8):
     if (child := os.fork()) == 0:
         sys.exit()
     assert os.waitpid(child, 0)[1] == 0
 assert time.monotonic() - start < 30  # each of them would wait 5 s for the thread
-"""
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert result.returncode == 0, result.stderr
-    assert result.stderr == ""
+""")
 
 
 def looks_alike(a: mt.Picture, b: mt.Picture) -> bool:
