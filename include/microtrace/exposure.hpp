@@ -13,8 +13,8 @@ namespace microtrace {
 /// Measures the brightest channel of each pixel in a small picture of the scene, weighted with
 /// coverage. The result is a multiple of 1/10 and 0 if no surface is lit. It depends on the scene,
 /// the camera, the shape of the picture and the integrator, environment and background in
-/// `options`, not on samples, seed or crop. options.progress is called with 0, and may
-/// cancel.
+/// `options`, not on samples, seed or crop. options.progress is called with 0,
+/// and may cancel.
 ///
 /// Throws the errors of render().
 [[nodiscard]] MICROTRACE_EXPORT double automatic_exposure(const PreparedScene& scene,
