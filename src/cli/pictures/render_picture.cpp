@@ -100,10 +100,10 @@ struct SavedFilm {
   std::exception_ptr failure{};  ///< why the samples could not be saved
 };
 
-/// Renders the picture and saves its samples. After a delayed signal, saves the samples of all
-/// complete passes and throws Interruption.
+/// Renders the picture and saves its samples. Signals are delayed once there are samples. After a
+/// delayed signal, saves the samples of all complete passes and throws Interruption.
 SavedFilm render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize size,
-                          const RenderOptions& options, const Arguments& arguments,
+                          RenderOptions options, const Arguments& arguments,
                           const PictureFiles& files) {
   const auto draw = [&] {
     if (files.denoiser != nullptr) return files.denoiser->render(scene, camera, size, options);
@@ -113,9 +113,17 @@ SavedFilm render_and_save(const PreparedScene& scene, const Camera& camera, Imag
   std::optional<Film> film;
   std::exception_ptr failure;
   {
-    const DelayedSignals delay;
+    // Until then, there is nothing to save. Preparing the scene's light may take long.
+    std::optional<DelayedSignals> delay;
+    if (options.passes) {
+      options.passes->after_each = [&delay, then = options.passes->after_each](const auto& sums) {
+        if (!delay) delay.emplace();
+        if (then) then(sums);
+      };
+    }
     try {
       film = draw();
+      if (!delay) delay.emplace();
       files.samples->keep(*film);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::canceled) {
@@ -242,13 +250,13 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   auto [film, failure] = render_and_save(prepared, camera, size, options, arguments, files);
   if (files.viewer != nullptr) files.viewer->show(shown_name, film);
   times.build += build.count();
-  watch.rendered(times);
   apply_display(film, display);
   if (!arguments.quiet) warn_about(counts, options.threads);
   const Scene& drawn = prepared.scene();
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
     warnings.report_picture(
         picture_warning(view_of(film, prepared, camera, options), arguments, drawn));
+  watch.rendered(times);  // with the rays of the warning
   if (!arguments.sampling.shard) {
     const auto instants = options.shutter ? std::optional(options.shutter->times) : std::nullopt;
     save_picture(arguments, drawn, camera, instants, film, files);

@@ -1,5 +1,6 @@
 #include "render/guiding/sky_visibility.hpp"
 
+#include "accel/kernels/kernel.hpp"
 #include "accel/ray_tracer.hpp"
 #include "render/guiding/blurred.hpp"
 #include "render/guiding/sky_grid.hpp"
@@ -21,6 +22,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace microtrace {
 namespace {
@@ -77,7 +79,7 @@ SkyVisibility::SkyVisibility(const Scene& scene, const Bvh& bvh, const Shading& 
   high_ = bounds->high + margin;
   const DVec3 extent = high_ - low_;
   grid_.cell_size = std::max({extent.x, extent.y, extent.z}) / kCellsAcross;
-  is_enclosed_ = grid_.cell_size > 0 && finds_enclosed();
+  is_enclosed_ = grid_.cell_size > 0 && is_near() && finds_enclosed();
   if (!is_enclosed_) return;
   std::size_t count = 6;
   for (int axis = 0; axis < 3; ++axis) {
@@ -86,6 +88,12 @@ SkyVisibility::SkyVisibility(const Scene& scene, const Bvh& bvh, const Shading& 
     count *= static_cast<std::size_t>(grid_.size[axis]);
   }
   cells_.resize(count);
+}
+
+// Rays from points that are farther away are tested against all primitives.
+bool SkyVisibility::is_near() const {
+  const DVec3 most(double{kFarthestCoordinate});
+  return glm::all(glm::lessThanEqual(-most, low_)) && glm::all(glm::lessThanEqual(high_, most));
 }
 
 bool SkyVisibility::finds_enclosed() const {

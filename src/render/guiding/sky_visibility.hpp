@@ -47,6 +47,8 @@ class SkyVisibility {
   struct Start;
   class Probe;
 
+  /// True if the bounds are within the kernels' limits.
+  [[nodiscard]] bool is_near() const;
   [[nodiscard]] bool finds_enclosed() const;
   [[nodiscard]] std::unique_ptr<const Cell> fill(std::size_t index) const;
   /// Points slightly above the cell's surfaces. Their rays only guide the sampling, so they don't
