@@ -89,6 +89,15 @@ class Compare(ProgramTest):
         pixels = (self.folder / "d.ppm").read_bytes().removeprefix(b"P6\n64 48\n255\n")
         self.assertEqual(pixels.count(b"\xff"), 3 * difference["differing"])
 
+    def test_neighboring_integers_differ_by_exactly_one_step(self):
+        for maximum in (255, 65535):
+            samples = [3 * (k // 3) * (maximum // 255) % maximum for k in range(3 * 256)]
+            self.ppm("a.ppm", 256, 1, samples, maximum)
+            self.ppm("b.ppm", 256, 1, [k + 1 for k in samples], maximum)
+            self.assertAlmostEqual(self.difference("a.ppm", "b.ppm")["maximum"], 1 / maximum, 14)
+            self.compare("a.ppm", "b.ppm", "--threshold", repr(1 / maximum * (1 + 1e-11)), code=0)
+            self.compare("a.ppm", "b.ppm", "--threshold", repr(1 / maximum * (1 - 1e-11)), code=7)
+
     def test_one_changed_sample(self):
         choices = random.Random(1)
         width, height = 31, 17

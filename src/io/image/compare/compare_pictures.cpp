@@ -46,9 +46,18 @@ StoredPicture with_eight_bits(const StoredPicture& picture, const Display& displ
   return result;
 }
 
-double difference_of(float a, float b) {
+/// The value of a sample. float32 has rounded those of 8 and 16 bits.
+double value_of(float sample, StoredPicture::Samples kind) {
+  constexpr double kMost = 65535;  // a multiple of 255
+  const double rounded{sample}, exact = std::round(rounded * kMost) / kMost;
+  const bool is_exact =
+      kind == StoredPicture::Samples::integers && static_cast<float>(exact) == sample;
+  return is_exact ? exact : rounded;
+}
+
+double difference_of(float a, float b, StoredPicture::Samples kind) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
-  const double difference = std::abs(static_cast<double>(a) - static_cast<double>(b));
+  const double difference = std::abs(value_of(a, kind) - value_of(b, kind));
   return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
 }
 
@@ -72,7 +81,7 @@ PictureDifference compare(const StoredPicture& a, const StoredPicture& b, double
     const float* of_b = &b.samples[4 * pixel];
     double greatest = 0;
     for (std::size_t c = 0; c < channels; ++c) {
-      const double difference = difference_of(of_a[c], of_b[c]);
+      const double difference = difference_of(of_a[c], of_b[c], a.kind);
       greatest = std::max(greatest, difference);
       sum += difference;
       squares += difference * difference;
@@ -115,7 +124,8 @@ Film difference_picture(const StoredPicture& a, const StoredPicture& b, const Di
       for (std::uint32_t x = 0; x < p.size.width; ++x) {
         const std::size_t first = 4 * (std::size_t{y} * p.size.width + x);
         const auto difference = [&](std::size_t c) {
-          return static_cast<float>(difference_of(p.samples[first + c], q.samples[first + c]));
+          return static_cast<float>(
+              difference_of(p.samples[first + c], q.samples[first + c], p.kind));
         };
         const float of_alpha = p.has_alpha || q.has_alpha ? difference(3) : 0;
         film.at(x, y) = glm::max(Vec3(difference(0), difference(1), difference(2)), of_alpha);
