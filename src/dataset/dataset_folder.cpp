@@ -18,7 +18,7 @@ using io::JsonReader;
 constexpr std::size_t kMaxRecord = std::size_t{64} << 20U;  ///< bytes of a JSON file of ours
 
 DatasetIdentity read_identity(const fs::path& path) {
-  return read_own(io::read_file(path, kMaxRecord), path, identity_of);
+  return read_own(io::read_regular_file(path, kMaxRecord), path, identity_of);
 }
 
 /// Returns the first difference between two data sets.
@@ -138,11 +138,12 @@ std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view)
   const fs::path path = record(view);
   std::error_code error;
   if (!fs::exists(path, error)) return std::nullopt;
-  const std::string text = io::read_file(path, kMaxRecord);
-  // A power failure can leave a record without its content.
+  const std::string text = io::read_regular_file(path, kMaxRecord);
+  // A power failure can leave a record without its content, and people may exchange records.
   try {
-    return read_own(text, path, [](const JsonReader& root) {
+    return read_own(text, path, [view](const JsonReader& root) {
       root.require_object({"view", "files"});
+      if (root.member("view").count() != view) root.member("view").fail("is another view's");
       std::vector<DatasetFile> files;
       for (const JsonReader& item : root.member("files").items())
         files.push_back(read_file_entry(item));
@@ -156,6 +157,9 @@ std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view)
 
 std::vector<DatasetFile> DatasetFolder::manifest() const {
   const fs::path path = path_ / "manifest.json";
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    throw Error(ErrorKind::io, path.string(), "is not a regular file");
   // One line for each file, because a JSON document may have only 2^24 values.
   std::ifstream lines(path, std::ios::binary);
   std::vector<DatasetFile> files;

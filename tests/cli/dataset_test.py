@@ -183,6 +183,29 @@ class Dataset(ProgramTest):
             self.dataset("--views", "orbit:3", *SMALL)
             self.assertEqual(self.contents(), whole)
 
+    def test_exchanged_records_are_replaced(self):
+        self.dataset("--views", "orbit:3", *SMALL)
+        whole = self.contents()
+        first, second = (self.folder / f"out/records/00000{view}.json" for view in (1, 2))
+        content = first.read_bytes()
+        first.write_bytes(second.read_bytes())
+        second.write_bytes(content)
+        self.assertIn("lacks 2 of 3 views", self.verify(code=5))
+        self.dataset("--views", "orbit:3", *SMALL)
+        self.assertEqual(self.contents(), whole)
+
+    def test_pipes_instead_of_files(self):
+        self.dataset("--views", "orbit:2", *SMALL)
+        for name in ("records/000001.json", "manifest.json", "dataset.json"):
+            file = self.folder / "out" / name
+            content = file.read_bytes()
+            file.unlink()
+            os.mkfifo(file)
+            self.assertIn(f"{name}: is not a regular file", self.verify(code=5))
+            file.unlink()
+            file.write_bytes(content)
+        self.verify()
+
     def test_verification_reads_the_common_files(self):
         self.dataset("--views", "orbit:2", "--formats", "png,coco,bop", *SMALL)
         for name in ("coco.json", "manifest.json", "bop/train/000000/scene_gt.json", "bop/models/models_info.json"):
