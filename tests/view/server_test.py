@@ -438,6 +438,18 @@ class Pictures(unittest.TestCase):
             self.assertLess(last.picture["samples"], 65536)
             self.assertGreater(last.picture["samples"], 0)
 
+    def test_saving_stops_when_the_client_leaves(self):
+        with Viewer(PROGRAM, SCENES / "gltf/lamps.glb") as viewer:
+            for _ in range(8):
+                with socket.create_connection(("127.0.0.1", viewer.port)) as client:
+                    body = b"--size\n2000x2000\n--spp\n65536"
+                    client.sendall(f"POST /{viewer.token}/file?format=exr HTTP/1.1\r\nHost: localhost\r\n"
+                                   f"Content-Length: {len(body)}\r\n\r\n".encode() + body)
+                    time.sleep(0.1)
+            wait_until(lambda: viewer.request("POST", "scene", "").status == 200)
+            saved = viewer.request("POST", "file?format=png", "--size\n16x12\n--spp\n2")
+            self.assertEqual(saved.status, 200, saved.body)
+
     def test_explanation_is_the_programs(self):
         for scene, words in (("perspective1.json", []), ("gltf/textures.glb", ["--view", "30,20"])):
             with Viewer(PROGRAM, SCENES / scene) as viewer:

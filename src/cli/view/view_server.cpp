@@ -253,11 +253,11 @@ void ViewServer::describe_scene(const io::HttpRequest& request, const io::HttpRe
 }
 
 void ViewServer::save_picture(const io::HttpRequest& request, const io::HttpReply& reply) {
-  run_errand(reply, [this, request] {
+  run_errand(reply, [this, request, reply] {
     const Query query(request.query);
     SceneSource& source = source_of(query);
     PictureJob job = make_job(source, parse_picture(arguments_, request.body));
-    job.options.progress = [this](double) { return !is_ending_; };
+    job.options.progress = [this, &reply](double) { return !is_ending_ && reply.is_awaited(); };
     return saved_picture(job, source.name(), query.text("format"));
   });
 }

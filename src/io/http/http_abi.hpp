@@ -42,14 +42,16 @@ struct MicrotraceHttpHost {
 
 struct MicrotraceHttpServer;
 
-/// The module's functions. `open` binds to the loopback and returns null on failure. `reply` may be
-/// called until `close`, by any thread.
+/// The module's functions. `open` binds to the loopback and returns null on failure. `reply` and
+/// `is_awaited` may be called until `close`, by any thread. `is_awaited` returns 0 if the client
+/// has closed its connection, and must not be called after `reply` for the same exchange.
 struct MicrotraceHttp {
   MicrotraceHttpServer* (*open)(const MicrotraceHttpHost* host);
   std::uint16_t (*port)(const MicrotraceHttpServer* server);
   void (*run)(MicrotraceHttpServer* server);
   void (*reply)(MicrotraceHttpServer* server, void* exchange,
                 const MicrotraceHttpResponse* response);
+  int (*is_awaited)(void* exchange);
   void (*close)(MicrotraceHttpServer* server);
 };
 
@@ -59,6 +61,6 @@ using MicrotraceHttpFunctions = const MicrotraceHttp* (*)();
 namespace microtrace::io {
 
 inline constexpr char kHttpModuleFileName[] = "microtrace_http.so";
-inline constexpr char kHttpFunctionsName[] = "microtrace_http_v2";
+inline constexpr char kHttpFunctionsName[] = "microtrace_http_v3";
 
 }  // namespace microtrace::io

@@ -5,6 +5,7 @@
 #include <microtrace/error.hpp>
 
 #include <atomic>
+#include <cerrno>
 #include <exception>
 #include <utility>
 
@@ -41,6 +42,11 @@ class Exchange {
                                       .body = response.body.data(),
                                       .size = response.body.size()};
     http_.reply(server_, exchange, &sent);
+  }
+
+  [[nodiscard]] bool is_awaited() const {
+    void* exchange = exchange_.load();
+    return exchange != nullptr && http_.is_awaited(exchange) != 0;
   }
 
  private:
@@ -89,7 +95,8 @@ HttpServer::HttpServer(const Options& options, Handler handle)
                    .path = request->path,
                    .query = request->query,
                    .body = {static_cast<const char*>(request->body), request->size}},
-                  [pending](const HttpResponse& response) { pending->reply(response); });
+                  {[pending](const HttpResponse& response) { pending->reply(response); },
+                   [pending] { return pending->is_awaited(); }});
     });
   };
   host.goes_on = [](void* context) {
@@ -105,10 +112,12 @@ HttpServer::HttpServer(const Options& options, Handler handle)
   };
   exchanges_->server = exchanges_->http.open(&host);
   if (exchanges_->server == nullptr) {
+    const int code = exchanges_->system_error;
+    const bool is_taken = code == EADDRINUSE || code == EACCES || code == EADDRNOTAVAIL;
     throw Error(ErrorKind::io, "",
                 "port " + std::to_string(options.port) + " of 127.0.0.1 can't be used: " +
-                    exchanges_->complaint + "; choose another one with --port",
-                exchanges_->system_error);
+                    exchanges_->complaint + (is_taken ? "; choose another one with --port" : ""),
+                code);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace microtrace::io {
 
@@ -27,7 +28,19 @@ struct HttpResponse {
 /// Sends the response to one request. Copies refer to the same request, and only the first response
 /// is sent. If there is none when the last copy is destroyed, the status 503 is sent. May be used
 /// by any thread, but no longer than the server exists.
-using HttpReply = std::function<void(const HttpResponse&)>;
+class HttpReply {
+ public:
+  HttpReply(std::function<void(const HttpResponse&)> send, std::function<bool()> is_awaited)
+      : send_(std::move(send)), is_awaited_(std::move(is_awaited)) {}
+
+  void operator()(const HttpResponse& response) const { send_(response); }
+  /// Returns false if the client has closed its connection. Must not be called after a response.
+  [[nodiscard]] bool is_awaited() const { return is_awaited_(); }
+
+ private:
+  std::function<void(const HttpResponse&)> send_;
+  std::function<bool()> is_awaited_;
+};
 
 class HttpServer {
  public:

@@ -6,6 +6,7 @@
 #include <boost/beast/http/write.hpp>
 #include <chrono>
 #include <string_view>
+#include <sys/socket.h>
 #include <utility>
 
 namespace microtrace::http {
@@ -155,6 +156,11 @@ void Connection::answer() {
                                        .size = request.body().size()};
   const MicrotraceHttpHost& program = server_.host();
   program.handle(program.context, &received, new std::shared_ptr<Connection>(shared_from_this()));
+}
+
+bool Connection::is_open_at_client() {
+  char next = 0;
+  return ::recv(stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT) != 0;
 }
 
 void Connection::refuse(status code, const std::string& text) {

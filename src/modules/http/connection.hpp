@@ -32,6 +32,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Sends the response to the current request. Must be called on the thread of Server::run().
   void write(Response response);
 
+  /// Returns false if the client has closed the connection. May be called by any thread while the
+  /// current request waits for its response.
+  [[nodiscard]] bool is_open_at_client();
+
   [[nodiscard]] Server& server() { return server_; }
 
  private:

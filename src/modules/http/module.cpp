@@ -65,14 +65,22 @@ void reply(MicrotraceHttpServer* server, void* exchange, const MicrotraceHttpRes
                     });
 }
 
+int is_awaited(void* exchange) {
+  return (*static_cast<std::shared_ptr<Connection>*>(exchange))->is_open_at_client() ? 1 : 0;
+}
+
 void close(MicrotraceHttpServer* server) {
   delete server;
 }
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const MicrotraceHttp* microtrace_http_v2() {
-  static constexpr MicrotraceHttp kFunctions{
-      .open = open, .port = port, .run = run, .reply = reply, .close = close};
+extern "C" __attribute__((visibility("default"))) const MicrotraceHttp* microtrace_http_v3() {
+  static constexpr MicrotraceHttp kFunctions{.open = open,
+                                             .port = port,
+                                             .run = run,
+                                             .reply = reply,
+                                             .is_awaited = is_awaited,
+                                             .close = close};
   return &kFunctions;
 }
