@@ -128,8 +128,9 @@ RationalDistortion rational_distortion(const Item& item) {
 
 ImageSize size_of(const Item& item) {
   const auto side = [&](double value) {
-    if (value != std::floor(value) || value < 1 || value > std::numeric_limits<std::int32_t>::max())
+    if (value != std::floor(value) || value < 1)
       item.fail("must be two positive whole numbers, width and height");
+    if (value > std::numeric_limits<std::int32_t>::max()) item.fail("is too large");
     return static_cast<std::uint32_t>(value);
   };
   const ImageSize size{.width = side(item.values[0]), .height = side(item.values[1])};

@@ -20,8 +20,10 @@ PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options
       .pose = {.position = eye, .direction = target - eye, .up = options.up},
       .vertical_fov = radians_from_degrees(options.view().vertical_fov)};
   if (const auto problem = validate(camera)) {
-    if (problem->field == "direction")
-      refuse_usage("--eye: equals the target; choose another one with --target");
+    if (problem->field == "direction") {
+      refuse_usage(target == eye ? "--eye: equals the target; choose another one with --target"
+                                 : "--eye: the direction to the target " + problem->message);
+    }
     if (problem->field == "position") refuse_usage("--eye: " + problem->message);
     refuse_usage(options.up == DVec3(0)
                      ? "--up: must not be zero"

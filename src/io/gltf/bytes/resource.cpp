@@ -61,10 +61,11 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   std::error_code code;
   // Reading a pipe or device could block forever.
   if (!std::filesystem::is_regular_file(path, code)) {
-    const bool missing = !std::filesystem::exists(path, code);
+    if (std::filesystem::exists(path, code))
+      asset.fail(uri, file + " is not a regular file", ErrorKind::io);
     // A missing file means that the asset is incomplete, not that the machine failed.
-    const ErrorKind kind = missing ? ErrorKind::invalid_scene : ErrorKind::io;
-    asset.fail(uri, file + (missing ? " does not exist" : " is not a regular file"), kind);
+    if (!code) asset.fail(uri, file + " does not exist");
+    asset.fail(uri, file + " can't be opened: " + code.message(), ErrorKind::io);
   }
   try {
     const ConfinedReads confined(folders.own, folders.allowed);
