@@ -113,11 +113,9 @@ TEST(AlbedoTables, NodesOfTheCoatingIntegrate) {
 }
 
 RefractionLoss<1> loss_of(float roughness, float eta, float f0) {
-  return RefractionLoss<1>({.roughness = roughness,
-                            .eta = eta,
-                            .dielectric = {.f0 = f0, .f90 = 1},
-                            .least_f0 = f0,
-                            .most_f0 = f0});
+  return RefractionLoss<1>(
+      {.roughness = roughness, .eta = eta, .dielectric = {.f0 = f0, .f90 = 1}},
+      [&](float) { return RefractionLoss<1>::F0Range{.least = f0, .most = f0}; });
 }
 
 // If everything that is not reflected is transmitted, the energy deficit is the energy that single

@@ -52,7 +52,7 @@ Interval transmitting(double z, double p, double q, double c) {
 
 }  // namespace
 
-double refraction_loss(double alpha, double z, double eta, const Quadrature& points) {
+RefractionLoss refraction_loss(double alpha, double z, double eta, const Quadrature& points) {
   const Alphas alphas{.x = alpha, .y = alpha};
   const Direction wo = tilted(z);
   const double root = alphas.root(wo), masking = 2 * z / (z + root);
@@ -74,21 +74,31 @@ double refraction_loss(double alpha, double z, double eta, const Quadrature& poi
     return result;
   };
   double sum = 0;
+  RefractionLoss result;
   over_facets(alphas, wo, points, turns, cuts, [&](const Facet& f) {
     const double h = 1 / std::sqrt(f.square), cosine = f.dot * h;
+    if (!(cosine > 0)) return;  // NaN if t is infinite
     const double square = 1 - (1 - cosine * cosine) / (eta * eta);
     const double refracted = std::sqrt(std::max(square, 0.0));
-    const double fresnel =
-        head_on + (1 - head_on) * fifth_power(1 - (eta < 1 ? refracted : cosine));
+    const double edge = fifth_power(1 - (eta < 1 ? refracted : cosine));
+    const double fresnel = head_on + (1 - head_on) * edge;
     const double up = 2 * f.dot / f.square - z;
+    double reflected = 0, transmitted = 0;  // if the facet reflects or transmits all light
     if (up > 0)
-      sum += f.weight * 2 * up / (z * alphas.root(tilted(std::min(up, 1.0))) + up * root) * fresnel;
+      reflected = f.weight * 2 * up / (z * alphas.root(tilted(std::min(up, 1.0))) + up * root);
+    sum += reflected * fresnel;
+    if (!(square > 0)) return;
     const double down = std::min(z / eta - (cosine / eta - refracted) * h, 1.0);
-    if (!(square > 0) || !(down > 0)) return;
-    const double below = 2 * down / (down + alphas.root(tilted(down)));
-    sum += f.weight * 2 / (z + root) * (1 - fresnel) * (below < masking ? below / masking : 1);
+    if (down > 0) {
+      const double below = 2 * down / (down + alphas.root(tilted(down)));
+      transmitted = f.weight * 2 / (z + root) * (below < masking ? below / masking : 1);
+    }
+    sum += transmitted * (1 - fresnel);
+    result.by_f0 += (transmitted - reflected) * (1 - edge);
+    result.by_f90 += (transmitted - reflected) * edge;
   });
-  return 1 - sum;
+  result.loss = 1 - sum;
+  return result;
 }
 
 double Sheen::lambda(double z) const {

@@ -20,11 +20,19 @@ struct Albedo {
 [[nodiscard]] Albedo ggx_albedo(const Alphas& alphas, const Direction& wo,
                                 const Quadrature& points);
 
-/// Returns the fraction of light from z = cos(theta) that single scattering at a rough boundary
-/// neither reflects nor refracts. eta is the index of refraction behind the boundary divided by
-/// that in front of it. The Fresnel term is Schlick's, for the cosine in the medium with the lower
-/// index. Of the two masking terms of refraction, the smaller one applies.
-[[nodiscard]] double refraction_loss(double alpha, double z, double eta, const Quadrature& points);
+/// The fraction of the light that single scattering at a rough boundary neither reflects nor
+/// refracts. It is a linear function of f0 and f90 of Schlick's Fresnel term, as facets with total
+/// reflection depend on neither.
+struct RefractionLoss {
+  double loss = 0;               ///< for the f0 that follows from the index, and f90 = 1
+  double by_f0 = 0, by_f90 = 0;  ///< derivatives
+};
+
+/// Returns the loss for light from z = cos(theta). eta is the index of refraction behind the
+/// boundary divided by that in front of it. The Fresnel term is for the cosine in the medium with
+/// the lower index. Of the two masking terms of refraction, the smaller one applies.
+[[nodiscard]] RefractionLoss refraction_loss(double alpha, double z, double eta,
+                                             const Quadrature& points);
 
 /// The published sheen model (A. Conty Estevez and C. Kulla, Production friendly microfacet sheen
 /// BRDF, 2017).

@@ -14,7 +14,7 @@ namespace microtrace::tables {
 namespace {
 
 constexpr std::size_t kIndices = 8, kRows = 12, kColumns = 17;
-constexpr double kGreatestCritical = 0.96, kUnit = 1e-4;
+constexpr double kGreatestCritical = 0.96, kUnit = 1e-4, kSlopeUnit = 1e-3;
 constexpr double kPenalty = 33;
 
 /// Returns positions from `from` to nodes - 1, with `per_node` positions for each node.
@@ -70,34 +70,66 @@ double cosine_within(double column, double critical) {
   return critical + (1 - critical) * square((column - half) / half);
 }
 
-/// Returns the table's entries for light from the denser side if `within` is true, otherwise from
-/// the thinner side.
-std::vector<double> entries(bool within) {
-  const Quadrature points = graded(24);
-  // 0.56 is the position of the index 1.003, the smallest one that refracts.
-  const std::vector<double> indices = positions(0.56, kIndices, 3), rows = positions(0, kRows, 3),
-                            columns = positions(0, kColumns, 3);
-  std::vector<double> losses;
-  for (const double index : indices) {
-    const double critical = kGreatestCritical * index / (kIndices - 1);
-    const double inverse = std::sqrt(1 - critical * critical);
-    for (const double row : rows) {
-      const double alpha = alpha_of(row / (kRows - 1));
-      for (const double column : columns) {
-        const double z = within ? cosine_within(column, critical) : cosine_outside(column);
-        losses.push_back(refraction_loss(alpha, z, within ? inverse : 1 / inverse, points));
+/// The losses at the places for which the tables are fitted.
+class Samples {
+ public:
+  /// For light from the denser side if `within` is true, otherwise from the thinner side.
+  explicit Samples(bool within) {
+    const Quadrature points = graded(24);
+    for (const double index : indices_) {
+      const double critical = kGreatestCritical * index / (kIndices - 1);
+      const double inverse = std::sqrt(1 - critical * critical);
+      for (const double row : rows_) {
+        const double alpha = alpha_of(row / (kRows - 1));
+        for (const double column : columns_) {
+          const double z = within ? cosine_within(column, critical) : cosine_outside(column);
+          losses_.push_back(refraction_loss(alpha, z, within ? inverse : 1 / inverse, points));
+        }
       }
     }
   }
-  std::vector<double> result =
-      low_fit({parabolas(indices, kIndices), parabolas(rows, kRows), lines(columns, kColumns)},
-              losses, kPenalty);
-  for (double& entry : result) entry /= kUnit;
-  return result;
-}
 
-std::string loss_text(const std::string& name, bool within) {
-  return table_text("RefractionLossTable " + name, entries(within), {kIndices, kRows, kColumns}, 0);
+  /// The entries of the table for the losses, which are rarely too large.
+  [[nodiscard]] std::string losses_text(const std::string& name) const {
+    return text(name, low_fit(axes(), values(&RefractionLoss::loss), kPenalty), kUnit);
+  }
+  /// The entries of a table for a derivative.
+  [[nodiscard]] std::string slopes_text(const std::string& name,
+                                        double RefractionLoss::*slope) const {
+    return text(name, fit(axes(), values(slope)), kSlopeUnit);
+  }
+
+ private:
+  [[nodiscard]] std::vector<Factors> axes() const {
+    return {parabolas(indices_, kIndices), parabolas(rows_, kRows), lines(columns_, kColumns)};
+  }
+  [[nodiscard]] std::vector<double> values(double RefractionLoss::*part) const {
+    std::vector<double> result;
+    for (const RefractionLoss& loss : losses_) result.push_back(loss.*part);
+    return result;
+  }
+  [[nodiscard]] static std::string text(const std::string& name, std::vector<double> entries,
+                                        double unit) {
+    for (double& entry : entries) entry /= unit;
+    return table_text("RefractionLossTable " + name, entries, {kIndices, kRows, kColumns}, 0);
+  }
+
+  // 0.56 is the position of the index 1.003, the smallest one that refracts.
+  std::vector<double> indices_ = positions(0.56, kIndices, 3), rows_ = positions(0, kRows, 3),
+                      columns_ = positions(0, kColumns, 3);
+  std::vector<RefractionLoss> losses_;
+};
+
+std::string slopes_header(const std::string& comment, bool within, const std::string& suffix) {
+  const Samples samples(within);
+  return header_text(comment, {"render/bsdf/tables/refraction_loss_table.hpp"},
+                     "// clang-format off\n"
+                     "\n"
+                     "/// The derivative by f0.\n" +
+                         samples.slopes_text("kLossByF0" + suffix, &RefractionLoss::by_f0) +
+                         "\n/// The derivative by f90.\n" +
+                         samples.slopes_text("kLossByF90" + suffix, &RefractionLoss::by_f90) +
+                         "\n// clang-format on\n");
 }
 
 }  // namespace
@@ -119,6 +151,7 @@ std::string refraction_loss_table() {
       "inline constexpr float kGreatestCritical = 0.96F;  ///< greatest cosine of a critical "
       "angle\n"
       "inline constexpr float kRefractionUnit = 1 / 10000.0F;\n"
+      "inline constexpr float kSlopeUnit = 1 / 1000.0F;  ///< of refraction_slopes_table.hpp\n"
       "\n"
       "/// Entry [k][j][i] is for cos(critical angle) = 0.96 k / 7, roughness j / 11 and angle i, "
       "in\n"
@@ -130,7 +163,7 @@ std::string refraction_loss_table() {
       "// clang-format off\n"
       "\n"
       "/// For light from the thinner side. Column i is for cos(theta) = (i / 16)^2.\n" +
-          loss_text("kLossFromOutside", false) + "\n// clang-format on\n");
+          Samples(false).losses_text("kLossFromOutside") + "\n// clang-format on\n");
 }
 
 std::string refraction_loss_within_table() {
@@ -143,7 +176,23 @@ std::string refraction_loss_within_table() {
       "/// c is the cosine of the critical angle. Columns 0 to 8 are for cos(theta) = c (i / "
       "8)^2,\n"
       "/// columns 8 to 16 for cos(theta) = c + (1 - c) ((i - 8) / 8)^2.\n" +
-          loss_text("kLossFromWithin", true) + "\n// clang-format on\n");
+          Samples(true).losses_text("kLossFromWithin") + "\n// clang-format on\n");
+}
+
+std::string refraction_slopes_table() {
+  return slopes_header(
+      "Derivatives of kLossFromOutside in refraction_loss_table.hpp by f0 and f90 of Schlick's "
+      "Fresnel term. The loss is a linear function of both. For f0 <= f90 <= 1, losses are " +
+          error_text(kAnyLossOutsideError) + ".\n",
+      false, "FromOutside");
+}
+
+std::string refraction_slopes_within_table() {
+  return slopes_header(
+      "Derivatives of kLossFromWithin in refraction_loss_within_table.hpp, as in "
+      "refraction_slopes_table.hpp. For f0 <= f90 <= 1, losses are " +
+          error_text(kAnyLossWithinError) + ".\n",
+      true, "FromWithin");
 }
 
 }  // namespace microtrace::tables

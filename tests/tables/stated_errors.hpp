@@ -33,6 +33,10 @@ inline constexpr StatedError kDeficitSchlickError{.above = 0.003, .below = 0.003
 inline constexpr StatedError kLossOutsideError{.above = 0.011, .below = 0.095, .rms = 0.006};
 inline constexpr StatedError kLossWithinError{.above = 0.011, .below = 0.11, .rms = 0.0065};
 
+/// The same for other Fresnel terms, with f0 <= f90 <= 1.
+inline constexpr StatedError kAnyLossOutsideError{.above = 0.009, .below = 0.1, .rms = 0.007};
+inline constexpr StatedError kAnyLossWithinError{.above = 0.008, .below = 0.11, .rms = 0.008};
+
 /// Measured over roughness, strength, azimuth, and cos(theta). The cosine has equal steps of its
 /// square root, or of the last variable of the loss.
 inline constexpr StatedError kAnisotropicF1Error{.above = 0.016, .below = 0.0035, .rms = 0.0013};

@@ -95,8 +95,8 @@ TEST(TableErrors, IntegralsConverge) {
       EXPECT_NEAR(a.f1, b.f1, 2e-6) << alpha << ' ' << z;
       EXPECT_NEAR(a.schlick, b.schlick, 2e-6) << alpha << ' ' << z;
       for (const double eta : {1.1, 2.0, 1 / 1.1, 0.5}) {
-        EXPECT_NEAR(tables::refraction_loss(alpha, z, eta, tables::graded(24)),
-                    tables::refraction_loss(alpha, z, eta, fine), 1.5e-3)
+        EXPECT_NEAR(tables::refraction_loss(alpha, z, eta, tables::graded(24)).loss,
+                    tables::refraction_loss(alpha, z, eta, fine).loss, 1.5e-3)
             << alpha << ' ' << z << ' ' << eta;
       }
     }
@@ -225,30 +225,71 @@ TEST(TableErrors, EnergyDeficitUnderACoat) {
   schlick.expect(tables::kDeficitSchlickError, "Schlick");
 }
 
+/// The place of a random refracting boundary in the tables, with an index of at least 1.003.
+struct AnyBoundary {
+  double roughness, z, eta;
+
+  float r() const { return static_cast<float>((eta - 1) / (eta + 1)); }
+  float loss(float f0, float f90) const {
+    using Loss = RefractionLoss<1>;
+    const Loss loss({.roughness = static_cast<float>(roughness),
+                     .eta = static_cast<float>(eta),
+                     .dielectric = {.f0 = f0, .f90 = f90}},
+                    [&](float) { return Loss::F0Range{.least = f0, .most = f0}; });
+    return loss.above(static_cast<float>(z));
+  }
+  tables::RefractionLoss integral() const {
+    return tables::refraction_loss(tables::alpha_of(roughness), z, eta, points);
+  }
+  static inline const Quadrature points = tables::graded(24);
+};
+
+class AnyBoundaries {
+ public:
+  explicit AnyBoundaries(bool within) : within_(within) {}
+
+  AnyBoundary operator()() {
+    constexpr double least = 0.0775;  // critical cosine for an index of 1.003
+    const double critical = least + (kGreatestCritical - least) * criticals_();
+    const double inverse = std::sqrt(1 - critical * critical);
+    const double roughness = roughnesses_(), column = columns_(), part = 2 * column - 1;
+    const double z = !within_   ? column * column
+                     : part < 0 ? critical * (1 + part) * (1 + part)
+                                : critical + (1 - critical) * part * part;
+    return {.roughness = roughness, .z = z, .eta = within_ ? inverse : 1 / inverse};
+  }
+
+ private:
+  bool within_;
+  Spread criticals_ = spread(0, 3), roughnesses_ = spread(1, 3), columns_ = spread(2, 3);
+};
+
 TEST(TableErrors, RefractionLoss) {
-  const Quadrature points = tables::graded(24);
   for (const bool within : {false, true}) {
     Errors errors;
-    Spread criticals = spread(0, 3), roughnesses = spread(1, 3), columns = spread(2, 3);
+    AnyBoundaries boundaries(within);
     for (int i = 0; i < 4000; ++i) {
-      constexpr double least = 0.0775;  // critical cosine for an index of 1.003
-      const double critical = least + (kGreatestCritical - least) * criticals();
-      const double inverse = std::sqrt(1 - critical * critical);
-      const double roughness = roughnesses(), column = columns(), part = 2 * column - 1;
-      const double z = !within    ? column * column
-                       : part < 0 ? critical * (1 + part) * (1 + part)
-                                  : critical + (1 - critical) * part * part;
-      const double eta = within ? inverse : 1 / inverse, r = (eta - 1) / (eta + 1);
-      const auto f0 = static_cast<float>(r * r);
-      const RefractionLoss<1> loss({.roughness = static_cast<float>(roughness),
-                                    .eta = static_cast<float>(eta),
-                                    .dielectric = {.f0 = f0, .f90 = 1},
-                                    .least_f0 = f0,
-                                    .most_f0 = f0});
-      errors.add(loss.above(static_cast<float>(z)),
-                 tables::refraction_loss(tables::alpha_of(roughness), z, eta, points));
+      const AnyBoundary boundary = boundaries();
+      errors.add(boundary.loss(boundary.r() * boundary.r(), 1), boundary.integral().loss);
     }
     errors.expect(within ? tables::kLossWithinError : tables::kLossOutsideError,
+                  within ? "within" : "outside");
+  }
+}
+
+TEST(TableErrors, RefractionLossOfOtherFresnelTerms) {
+  for (const bool within : {false, true}) {
+    Errors errors;
+    AnyBoundaries boundaries(within);
+    Spread f0s = spread(0, 2), f90s = spread(1, 2);
+    for (int i = 0; i < 4000; ++i) {
+      const AnyBoundary boundary = boundaries();
+      const double f90 = i % 2 == 0 ? 1 : f90s(), f0 = f0s() * f90, r = boundary.r();
+      const tables::RefractionLoss at = boundary.integral();
+      errors.add(boundary.loss(static_cast<float>(f0), static_cast<float>(f90)),
+                 at.loss + (f0 - r * r) * at.by_f0 + (f90 - 1) * at.by_f90);
+    }
+    errors.expect(within ? tables::kAnyLossWithinError : tables::kAnyLossOutsideError,
                   within ? "within" : "outside");
   }
 }
@@ -316,6 +357,10 @@ TEST(TableErrors, AreDocumented) {
   row("deficit under a clear coat, F = (1 - cos)^5", tables::kDeficitSchlickError);
   row("loss of refraction, from the thinner side", tables::kLossOutsideError);
   row("loss of refraction, from the denser side", tables::kLossWithinError);
+  row("loss of refraction for other Fresnel terms, from the thinner side",
+      tables::kAnyLossOutsideError);
+  row("loss of refraction for other Fresnel terms, from the denser side",
+      tables::kAnyLossWithinError);
   row("anisotropic GGX, F = 1", tables::kAnisotropicF1Error);
   row("anisotropic GGX, F = (1 - cos)^5", tables::kAnisotropicSchlickError);
   row("cosine-weighted mean of anisotropic GGX, F = 1", tables::kAnisotropicMeanF1Error);

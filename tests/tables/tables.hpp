@@ -13,6 +13,8 @@ namespace microtrace::tables {
 [[nodiscard]] std::string coating_schlick_table();
 [[nodiscard]] std::string refraction_loss_table();
 [[nodiscard]] std::string refraction_loss_within_table();
+[[nodiscard]] std::string refraction_slopes_table();
+[[nodiscard]] std::string refraction_slopes_within_table();
 [[nodiscard]] std::string anisotropic_loss_table();
 [[nodiscard]] std::string anisotropic_schlick_table();
 
@@ -28,6 +30,8 @@ inline constexpr std::array kHeaders{
     Header{"coating_schlick_table.hpp", coating_schlick_table},
     Header{"refraction_loss_table.hpp", refraction_loss_table},
     Header{"refraction_loss_within_table.hpp", refraction_loss_within_table},
+    Header{"refraction_slopes_table.hpp", refraction_slopes_table},
+    Header{"refraction_slopes_within_table.hpp", refraction_slopes_within_table},
     Header{"anisotropic_loss_table.hpp", anisotropic_loss_table},
     Header{"anisotropic_schlick_table.hpp", anisotropic_schlick_table},
 };

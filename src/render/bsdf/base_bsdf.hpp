@@ -66,6 +66,7 @@ class BaseBsdf {
 
  private:
   static constexpr bool kIsPlain = __is_same(FeaturesType, PlainFeatures);
+  static constexpr int kFilmNodes = 9;
 
   /// The fractions of light that a microfacet reflects, and that enter the dielectric.
   struct Shares {
@@ -81,6 +82,10 @@ class BaseBsdf {
   };
   /// The Fresnel term of the dielectric for directions with cosine z.
   [[nodiscard]] GreatestSchlick<N> dielectric_at(const F& z) const;
+  /// Interpolates between reflectances of the film's nodes for directions with cosine z.
+  [[nodiscard]] F film_f0_at(const F (&f0)[kFilmNodes], const F& z) const;
+  /// Bounds of the film's reflectances on the facets that are seen at this mean angle of incidence.
+  [[nodiscard]] typename RefractionLoss<N>::F0Range film_f0_range(const F& cosine) const;
   /// The fraction of light that the dielectric's microfacets do not reflect.
   [[nodiscard]] F unreflected(const GreatestSchlick<N>& dielectric, const Albedo<N>& albedo) const {
     return 1 - dielectric.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
@@ -174,9 +179,8 @@ class BaseBsdf {
   ThinFilm<N> film_;
   /// The dielectric with its film reflects like Schlick's term with these reflectances at normal
   /// incidence, for equidistant cosines in [0, 1].
-  static constexpr int kFilmNodes = 9;
-  F film_f0_[kFilmNodes];
-  F film_least_, film_most_;    ///< bounds of the reflectances with and without the film
+  F film_f0_[kFilmNodes], film_least_[kFilmNodes];  ///< of the brightest and the darkest channel
+  F film_mean_least_;
   F least_square_, on_facets_;  ///< see dielectric_at()
   F metallic_, eta_;
   V diffuse_below_, multiple_below_, transmitted_;

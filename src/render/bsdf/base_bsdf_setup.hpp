@@ -1,7 +1,7 @@
 #pragma once
 /// Computes the parts of a BaseBsdf that depend only on wo.
 
-#include "render/bsdf/base_bsdf.hpp"
+#include "render/bsdf/base_bsdf_film.hpp"
 
 namespace microtrace::bsdf {
 
@@ -167,13 +167,14 @@ void BaseBsdf<N, Parts>::add_transmission(const Surface<N>& p, const V& f0, cons
 
 template <int N, class Parts>
 void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
-  const bool has_film = features_.has_film;
-  loss_ = RefractionLoss<N>({.roughness = p.roughness,
-                             .eta = eta_,
-                             .dielectric = greatest_,
-                             .least_f0 = has_film ? film_least_ : least_component(p.dielectric.f0),
-                             .most_f0 = has_film ? film_most_ : greatest_.f0,
-                             .anisotropy = features_.is_anisotropic ? p.anisotropy : F{}});
+  using F0Range = typename RefractionLoss<N>::F0Range;
+  const F0Range plain{least_component(p.dielectric.f0), greatest_component(p.dielectric.f0)};
+  loss_ = RefractionLoss<N>(
+      {.roughness = p.roughness,
+       .eta = eta_,
+       .dielectric = greatest_,
+       .anisotropy = features_.is_anisotropic ? p.anisotropy : F{}},
+      [&](const F& cosine) { return features_.has_film ? film_f0_range(cosine) : plain; });
   const F through = loss_.through(), here = loss_.above(wo_.z) * kInversePi;
   const F entering = (1 - p.metallic) * p.transmission;
   // Light that never enters the volume is not tinted by the base color.
@@ -190,60 +191,6 @@ void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
                 (1 - coating_below()->transmittance_at_node(k));
   }
   lost_ += (returned / loss_.mean_above()) * lost_below_;
-}
-
-template <int N, class Parts>
-auto BaseBsdf<N, Parts>::add_film(const F& roughness, HeadOn& parts) -> V {
-  const F alpha = roughness * roughness;
-  const F least = 2.6F * alpha / (1 + 1.25F * alpha);
-  least_square_ = least * least;
-  on_facets_ = (1 - 0.23F * alpha / (1 + 1.2F * alpha)) / square_root<N>(1 + least_square_);
-  constexpr int kFirstOfMean = 3;
-  constexpr float kWeight = 1.0F / (kFilmNodes - kFirstOfMean);
-  constexpr auto of_mean = hat_weights<1, kFilmNodes>();
-  // Film and Schlick's term reach 1 at grazing angles, so the first node is slightly above.
-  constexpr float kLeastCosine = 0.03F;
-  const bool has_metal = any(metallic_ > 0), has_dielectric = any(metallic_ < 1);
-  const F without = greatest_.f0;
-  V dielectric = all3<N>(0), metal = all3<N>(0);
-  greatest_.f0 = F{};
-  film_least_ = least_component(dielectric_.f0);
-  film_most_ = without;
-  for (int k = 0; k < kFilmNodes; ++k) {
-    const F cosine = all<N>(k == 0 ? kLeastCosine : static_cast<float>(k) / (kFilmNodes - 1));
-    const F edge = Schlick<N>::edge(cosine);
-    const auto f0_with_film = [&](const Schlick<N>& below) {
-      const V f = thin_film_reflectance<N>(cosine, film_, below.f0);
-      return greatest_components(V((f - edge) / (1 - edge)), all3<N>(0));
-    };
-    film_f0_[k] = without;
-    if (has_dielectric) {
-      const V f0 = f0_with_film(dielectric_);
-      if (k >= kFirstOfMean) dielectric += kWeight * f0;
-      film_least_ = smaller_of(film_least_, least_component(f0));
-      film_most_ = larger_of(film_most_, greatest_component(f0));
-      film_f0_[k] += film_.share * (greatest_component(f0) - without);
-    }
-    greatest_.f0 += of_mean.value[k] * film_f0_[k];
-    if (has_metal && k >= kFirstOfMean) metal += kWeight * f0_with_film(metal_);
-  }
-  greatest_.f90 += film_.share * (1 - greatest_.f90);
-  const V both =
-      select3(metallic_ > 0, select3(metallic_ < 1, mixed(dielectric, metal, metallic_), metal),
-              dielectric);
-  parts = {mixed(dielectric_.f0, dielectric, film_.share), mixed(metal_.f0, metal, film_.share)};
-  return mixed(specular_.f0, both, film_.share);
-}
-
-template <int N, class Parts>
-auto BaseBsdf<N, Parts>::dielectric_at(const F& z) const -> GreatestSchlick<N> {
-  if (!features_.has_film) return greatest_;
-  // The mean cosine of the angle of incidence on the facets that reflect light from this direction,
-  // fitted to sampled GGX facets with an error of at most 0.04.
-  const F cosine = on_facets_ * square_root<N>(z * z + least_square_);
-  const Cell<N> cell(cosine * (kFilmNodes - 1), kFilmNodes);
-  return {cell.mixed(picked<N>(film_f0_, cell.first), picked<N>(film_f0_ + 1, cell.first)),
-          greatest_.f90};
 }
 
 template <int N, class Parts>

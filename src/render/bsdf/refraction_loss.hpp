@@ -1,31 +1,10 @@
 #pragma once
+#include "render/bsdf/anisotropic_ggx.hpp"
 #include "render/bsdf/ggx_albedo.hpp"
 #include "render/bsdf/tables/tables.hpp"
 #include "simd/gather.hpp"
 
 namespace microtrace::bsdf {
-
-/// Quadratic Lagrange interpolation at x between three neighboring nodes out of n equidistant nodes
-/// in [0, 1].
-template <int N>
-struct Parabola {
-  Int<N> first;
-  Float<N> weights[3];
-
-  Parabola(const Float<N>& x, int n) {
-    const Float<N> step = x * static_cast<float>(n - 1);
-    // `step` is not negative, and ties may round either way.
-    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
-    const Int<N> nearest = truncated<N>(step + 0.5F);
-    const Int<N> least = Int<N>{} + 1, last = Int<N>{} + (n - 3);
-    const Int<N> before = larger_of(nearest, least) - 1;
-    first = smaller_of(before, last);
-    const Float<N> p = step - to_float<N>(first);
-    weights[0] = (p - 1) * (p - 2) * 0.5F;
-    weights[1] = p * (2 - p);
-    weights[2] = p * (p - 1) * 0.5F;
-  }
-};
 
 template <int n>
 struct HatWeights {
@@ -66,16 +45,21 @@ class RefractionLoss {
   /// Constructs a boundary without loss.
   RefractionLoss() = default;
 
-  /// What the loss depends on. The members after `dielectric` make the computed loss smaller where
-  /// it is less certain.
+  /// What the loss depends on.
   struct Boundary {
     F roughness;
-    F eta;  ///< the index of refraction below divided by the index above; not 1
-    GreatestSchlick<N> dielectric;
-    F least_f0, most_f0;       ///< bounds of the reflectance at normal incidence of all channels
-    F anisotropy = all<N>(0);  ///< strength of anisotropy, which the tables lack
+    F eta;                          ///< the index of refraction below divided by that above; not 1
+    GreatestSchlick<N> dielectric;  ///< the Fresnel term
+    F anisotropy = all<N>(0);       ///< strength
   };
-  explicit RefractionLoss(const Boundary& boundary);
+  /// Bounds of f0 of all color channels.
+  struct F0Range {
+    F least, most;
+  };
+  /// f0_at(cosine) must return the F0Range for this cosine of the angle of incidence in the thinner
+  /// medium. It depends on the cosine only for thin films.
+  template <class F0At>
+  RefractionLoss(const Boundary& boundary, const F0At& f0_at);
 
   /// The loss for light to or from a direction with |cos(theta)| = z above or below the surface.
   [[nodiscard]] F above(const F& z) const { return at(z, above_is_thinner_); }
@@ -96,78 +80,182 @@ class RefractionLoss {
  private:
   static constexpr int kColumns = kLossColumns, kHalf = (kLossColumns + 1) / 2;
 
-  void add(const F& weight, const Int<N>& row);
+  /// An interpolated row of a table.
+  struct Row {
+    F column[kColumns]{};
+
+    void add(const F& weight, const std::int16_t* table, const Int<N>& row);
+  };
+  /// The rows for both sides.
+  struct Rows {
+    Row outside, within;
+  };
+  /// The place of a boundary in the tables.
+  struct Place {
+    Parabola<N> index, row;
+
+    [[nodiscard]] Row of(const std::int16_t* table, float unit) const;
+  };
+  /// The losses of isotropic facets.
+  template <class F0At>
+  [[nodiscard]] Rows rows_at(const Place& place, const Boundary& boundary, const F0At& f0_at) const;
+  /// The cosine of the angle of incidence in the thinner medium for a column, if the facets have
+  /// the surface's normal.
+  [[nodiscard]] F cosine_outside(int column) const;
+  [[nodiscard]] F cosine_within(int column) const;
+  /// Replaces the losses of the smaller alpha by losses that anisotropic facets rarely fall below.
+  /// rows_of(roughness) must return the losses of isotropic facets.
+  template <class RowsOf>
+  void limit_anisotropic(const Boundary& boundary, const RowsOf& rows_of);
+  void set_means();
   [[nodiscard]] F at(const F& z, const F& is_outside) const;
 
   F above_is_thinner_ = all<N>(1);  // 1 or 0
   F critical_ = all<N>(0.5F);       // cosine of the critical angle
-  F outside_[kLossColumns]{}, within_[kLossColumns]{};
+  Rows rows_;
   F mean_outside_{}, mean_within_{}, through_{};
 };
 
 template <int N>
-void RefractionLoss<N>::add(const F& weight, const Int<N>& row) {
+void RefractionLoss<N>::Row::add(const F& weight, const std::int16_t* table, const Int<N>& row) {
   const int first = lane(row, 0);
   // Most surfaces in the lanes are of one material.
   if (!any(row != first)) {
-    for (int i = 0; i < kColumns; ++i) {
-      outside_[i] += weight * float(kTables.loss_from_outside[first * kColumns + i]);
-      within_[i] += weight * float(kTables.loss_from_within[first * kColumns + i]);
-    }
+    for (int i = 0; i < kColumns; ++i) column[i] += weight * float(table[first * kColumns + i]);
     return;
   }
-  for (int i = 0; i < kColumns; ++i) {
-    outside_[i] += weight * gathered<N>(kTables.loss_from_outside + i, row * kColumns);
-    within_[i] += weight * gathered<N>(kTables.loss_from_within + i, row * kColumns);
-  }
+  for (int i = 0; i < kColumns; ++i) column[i] += weight * gathered<N>(table + i, row * kColumns);
 }
 
 template <int N>
-RefractionLoss<N>::RefractionLoss(const Boundary& boundary) {
-  const auto& [roughness, eta, dielectric, least_f0, most_f0, anisotropy] = boundary;
-  const F zero{}, one = all<N>(1);
-  const auto above_is_thinner = eta > 1;
-  above_is_thinner_ = above_is_thinner ? one : zero;
-  const F q = above_is_thinner ? 1 / eta : eta, r = (1 - q) / (1 + q);
-  critical_ = square_root<N>(1 - q * q);
-  const Parabola<N> index(smaller_of(critical_ / kGreatestCritical, one), kLossIndices);
-  const Parabola<N> row(clamped(roughness, zero, one), kLossRows);
+auto RefractionLoss<N>::Place::of(const std::int16_t* table, float unit) const -> Row {
+  Row result;
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j) {
       const int rows = kLossRows;
-      add(index.weights[k] * row.weights[j] * kRefractionUnit,
-          (index.first + k) * rows + (row.first + j));
+      result.add(index.weights[k] * row.weights[j] * unit, table,
+                 (index.first + k) * rows + (row.first + j));
     }
   }
-  // The tables assume the reflectance that follows from the index of refraction. If the actual
-  // reflectance is f90 times as large, at least this fraction of the loss remains. From the thinner
-  // side, microfacets lose more of the light that they reflect than of the light that they
-  // transmit, and from the denser side the reverse. Anisotropic microfacets lose more on average,
-  // but less in some directions, mainly on the thinner side.
-  const F sure = 1 - anisotropy, weight = dielectric.f90 * sure;
-  const F assumed = dielectric.f90 * r * r, some = all<N>(0.5F);
-  const F unsure_outside = some * larger_of(F(assumed - least_f0), zero);
-  const F unsure_within = some * larger_of(F(most_f0 - assumed), zero);
-  constexpr auto weights = hat_weights<3, kColumns>();
-  constexpr auto cubic = hat_weights<3, kHalf>();
-  constexpr auto linear = hat_weights<1, kHalf>();
+  return result;
+}
+
+template <int N>
+auto RefractionLoss<N>::cosine_outside(int column) const -> F {
+  const float root = static_cast<float>(column) / (kColumns - 1);
+  return all<N>(root * root);
+}
+
+template <int N>
+auto RefractionLoss<N>::cosine_within(int column) const -> F {
+  if (column < kHalf) return F{};
+  const float root = static_cast<float>(column - (kHalf - 1)) / (kHalf - 1);
+  const F c = critical_, z = c + (1 - c) * (root * root);
+  return square_root<N>((z * z - c * c) / (1 - c * c));
+}
+
+template <int N>
+template <class F0At>
+auto RefractionLoss<N>::rows_at(const Place& place, const Boundary& boundary,
+                                const F0At& f0_at) const -> Rows {
+  Rows rows{place.of(kTables.loss_from_outside, kRefractionUnit),
+            place.of(kTables.loss_from_within, kRefractionUnit)};
+  // The tables assume f0 = r^2 and f90 = 1. Rounding errors don't count.
+  const F r = (boundary.eta - 1) / (boundary.eta + 1), assumed = r * r;
+  const auto excess = [](const F& x) { return magnitude(x) < 1e-4F ? F{} : x; };
+  const F f90 = excess(boundary.dielectric.f90 - 1);
+  const auto f0_excess = [&](const F& cosine) -> F0Range {
+    const F0Range f0 = f0_at(cosine);
+    return {excess(f0.least - assumed), excess(f0.most - assumed)};
+  };
+  bool adapts = any(f90 != 0);
+  for (int i = 0; i < kColumns && !adapts; ++i) {
+    const F0Range outside = f0_excess(cosine_outside(i)), within = f0_excess(cosine_within(i));
+    adapts =
+        any((outside.least != 0) | (outside.most != 0) | (within.least != 0) | (within.most != 0));
+  }
+  if (!adapts) return rows;
+  const auto adapt = [&](const F& cosine, const F& by_f0, const F& by_f90, F& loss) {
+    constexpr float kError = 0.005F;  // of the derivatives
+    const auto [least, most] = f0_excess(cosine);
+    const F error = larger_of(magnitude(least), magnitude(most)) + magnitude(f90);
+    loss += smaller_of(F(least * by_f0), F(most * by_f0)) + f90 * by_f90 - kError * error;
+  };
+  const Rows by_f0{place.of(kTables.loss_by_f0_from_outside, kSlopeUnit),
+                   place.of(kTables.loss_by_f0_from_within, kSlopeUnit)};
+  const Rows by_f90{place.of(kTables.loss_by_f90_from_outside, kSlopeUnit),
+                    place.of(kTables.loss_by_f90_from_within, kSlopeUnit)};
   for (int i = 0; i < kColumns; ++i) {
-    outside_[i] = clamped(F(weight * sure * outside_[i] - unsure_outside), zero, one);
-    within_[i] = clamped(F(weight * within_[i] - unsure_within), zero, one);
-    mean_outside_ += weights.value[i] * outside_[i];
+    adapt(cosine_outside(i), by_f0.outside.column[i], by_f90.outside.column[i],
+          rows.outside.column[i]);
+    adapt(cosine_within(i), by_f0.within.column[i], by_f90.within.column[i], rows.within.column[i]);
   }
-  const F c = critical_;
-  for (int i = 0; i < kHalf; ++i) {
-    const F above = 2 * c * linear.value[i] + (1 - c) * cubic.value[i];
-    mean_within_ += c * c * cubic.value[i] * within_[i] + (1 - c) * above * within_[i + kHalf - 1];
+  return rows;
+}
+
+template <int N>
+template <class F0At>
+RefractionLoss<N>::RefractionLoss(const Boundary& boundary, const F0At& f0_at) {
+  const auto& [roughness, eta, dielectric, anisotropy] = boundary;
+  const F zero{}, one = all<N>(1);
+  const auto above_is_thinner = eta > 1;
+  above_is_thinner_ = above_is_thinner ? one : zero;
+  const F q = above_is_thinner ? 1 / eta : eta;
+  critical_ = square_root<N>(1 - q * q);
+  const Parabola<N> index(smaller_of(critical_ / kGreatestCritical, one), kLossIndices);
+  const auto rows_of = [&](const F& rough) {
+    return rows_at({index, Parabola<N>(clamped(rough, zero, one), kLossRows)}, boundary, f0_at);
+  };
+  rows_ = rows_of(roughness);
+  if (any(anisotropy > 0)) limit_anisotropic(boundary, rows_of);
+  for (int i = 0; i < kColumns; ++i) {
+    rows_.outside.column[i] = clamped(rows_.outside.column[i], zero, one);
+    rows_.within.column[i] = clamped(rows_.within.column[i], zero, one);
   }
-  mean_outside_ = larger_of(mean_outside_, all<N>(1e-6F));
-  mean_within_ = larger_of(mean_within_, all<N>(1e-6F));
+  set_means();
   // By reciprocity, through / eta^2 divided by the mean loss of the opposite side is equal for both
   // sides.
   const F fresnel = dielectric.f0 + (dielectric.f90 - dielectric.f0) * (1 / 21.0F);
   const F ratio = eta * eta * mean_below() / mean_above();
   through_ = (1 - fresnel) * smaller_of(one, ratio);
+}
+
+// The losses of anisotropic facets depend on the azimuth. They are at least about 0.6 times those
+// of isotropic facets with the geometric mean of both alphas. Near the horizon, where facets with
+// different alphas lose the most, those with the larger alpha may lose less, and so may 1.5 times
+// those with the smaller one.
+template <int N>
+template <class RowsOf>
+void RefractionLoss<N>::limit_anisotropic(const Boundary& boundary, const RowsOf& rows_of) {
+  const AnisotropicGgx<N> facets(boundary.roughness, boundary.anisotropy, {all<N>(1), F{}});
+  const F along = facets.along_alpha(), across = facets.across_alpha();
+  const Rows middle = rows_of(square_root<N>(square_root<N>(along * across)));
+  const Rows rough = rows_of(square_root<N>(along));
+  const F sure = larger_of(F(across / along), all<N>(0.6F));
+  const auto limit = [&](const F& middle_loss, const F& rough_loss, F& loss) {
+    const F least = smaller_of(smaller_of(middle_loss, rough_loss), F(1.5F * loss));
+    loss = boundary.anisotropy > 0 ? F(sure * least) : loss;
+  };
+  for (int i = 0; i < kColumns; ++i) {
+    limit(middle.outside.column[i], rough.outside.column[i], rows_.outside.column[i]);
+    limit(middle.within.column[i], rough.within.column[i], rows_.within.column[i]);
+  }
+}
+
+template <int N>
+void RefractionLoss<N>::set_means() {
+  constexpr auto weights = hat_weights<3, kColumns>();
+  constexpr auto cubic = hat_weights<3, kHalf>();
+  constexpr auto linear = hat_weights<1, kHalf>();
+  for (int i = 0; i < kColumns; ++i) mean_outside_ += weights.value[i] * rows_.outside.column[i];
+  const F c = critical_;
+  for (int i = 0; i < kHalf; ++i) {
+    const F above = 2 * c * linear.value[i] + (1 - c) * cubic.value[i];
+    mean_within_ += c * c * cubic.value[i] * rows_.within.column[i] +
+                    (1 - c) * above * rows_.within.column[i + kHalf - 1];
+  }
+  mean_outside_ = larger_of(mean_outside_, all<N>(1e-6F));
+  mean_within_ = larger_of(mean_within_, all<N>(1e-6F));
 }
 
 template <int N>
@@ -181,9 +269,10 @@ auto RefractionLoss<N>::at(const F& z, const F& is_outside) const -> F {
                      : is_totally_reflected ? within
                                             : half + within,
                      kColumns);
-  const F first = outside ? picked<N>(outside_, cell.first) : picked<N>(within_, cell.first);
-  const F second =
-      outside ? picked<N>(outside_ + 1, cell.first) : picked<N>(within_ + 1, cell.first);
+  const F first = outside ? picked<N>(rows_.outside.column, cell.first)
+                          : picked<N>(rows_.within.column, cell.first);
+  const F second = outside ? picked<N>(rows_.outside.column + 1, cell.first)
+                           : picked<N>(rows_.within.column + 1, cell.first);
   return cell.mixed(first, second);
 }
 

@@ -24,6 +24,28 @@ struct Cell {
   }
 };
 
+/// Quadratic Lagrange interpolation at x between three neighboring nodes out of n equidistant nodes
+/// in [0, 1].
+template <int N>
+struct Parabola {
+  Int<N> first;
+  Float<N> weights[3];
+
+  Parabola(const Float<N>& x, int n) {
+    const Float<N> step = x * static_cast<float>(n - 1);
+    // `step` is not negative, and ties may round either way.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
+    const Int<N> nearest = truncated<N>(step + 0.5F);
+    const Int<N> least = Int<N>{} + 1, last = Int<N>{} + (n - 3);
+    const Int<N> before = larger_of(nearest, least) - 1;
+    first = smaller_of(before, last);
+    const Float<N> p = step - to_float<N>(first);
+    weights[0] = (p - 1) * (p - 2) * 0.5F;
+    weights[1] = p * (2 - p);
+    weights[2] = p * (p - 1) * 0.5F;
+  }
+};
+
 /// Loads four numbers for each lane. One load per lane is faster than a gather per number.
 template <int N>
 struct Quad {

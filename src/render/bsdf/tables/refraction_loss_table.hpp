@@ -21,6 +21,7 @@ namespace microtrace::bsdf {
 inline constexpr std::size_t kLossIndices = 8, kLossRows = 12, kLossColumns = 17;
 inline constexpr float kGreatestCritical = 0.96F;  ///< greatest cosine of a critical angle
 inline constexpr float kRefractionUnit = 1 / 10000.0F;
+inline constexpr float kSlopeUnit = 1 / 1000.0F;  ///< of refraction_slopes_table.hpp
 
 /// Entry [k][j][i] is for cos(critical angle) = 0.96 k / 7, roughness j / 11 and angle i, in
 /// units of kRefractionUnit.

@@ -3,6 +3,8 @@
 #include "render/bsdf/tables/anisotropic_schlick_table.hpp"
 #include "render/bsdf/tables/coating_schlick_table.hpp"
 #include "render/bsdf/tables/refraction_loss_within_table.hpp"
+#include "render/bsdf/tables/refraction_slopes_table.hpp"
+#include "render/bsdf/tables/refraction_slopes_within_table.hpp"
 
 namespace microtrace::bsdf {
 
@@ -76,6 +78,10 @@ constinit const Tables kTables{
     .deficit_schlick = kDeficitSchlickByRow[0][0].values.data(),
     .loss_from_outside = kLossFromOutside[0][0].data(),
     .loss_from_within = kLossFromWithin[0][0].data(),
+    .loss_by_f0_from_outside = kLossByF0FromOutside[0][0].data(),
+    .loss_by_f90_from_outside = kLossByF90FromOutside[0][0].data(),
+    .loss_by_f0_from_within = kLossByF0FromWithin[0][0].data(),
+    .loss_by_f90_from_within = kLossByF90FromWithin[0][0].data(),
     .raw_sheen_albedo = kRawSheenCells[0][0].values.data(),
     .sheen_albedo = kSheenCells[0][0].values.data(),
 };

@@ -27,6 +27,8 @@ struct Tables {
   const float *deficit_f1, *deficit_schlick;
   // Refraction: for each index of refraction, kLossRows rows of kLossColumns entries.
   const std::int16_t *loss_from_outside, *loss_from_within;
+  const std::int16_t *loss_by_f0_from_outside, *loss_by_f90_from_outside;
+  const std::int16_t *loss_by_f0_from_within, *loss_by_f90_from_within;
   // Sheen: the cells of tables with kSheenColumns columns.
   const float *raw_sheen_albedo, *sheen_albedo;
 };
