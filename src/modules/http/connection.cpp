@@ -4,6 +4,7 @@
 
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
+#include <cerrno>
 #include <chrono>
 #include <string_view>
 #include <sys/socket.h>
@@ -160,7 +161,8 @@ void Connection::answer() {
 
 bool Connection::is_open_at_client() {
   char next = 0;
-  return ::recv(stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT) != 0;
+  const ssize_t got = ::recv(stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT);
+  return got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
 void Connection::refuse(status code, const std::string& text) {
