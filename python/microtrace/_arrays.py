@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 import os
 from typing import Any
@@ -18,7 +19,8 @@ MOST = 2**63 - 1
 def as_array(values: Any, what: str) -> Array:
     """Converts lists, and objects that NumPy converts. Raises ValueError for lists of unequal
     lengths, and for masked arrays in which something is masked."""
-    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+    rows = values if isinstance(values, (list, tuple)) else (values,)
+    if any(isinstance(row, np.ma.MaskedArray) and np.ma.is_masked(row) for row in rows):
         raise ValueError(f"{what} must not have masked values; replace them, as by filled()")
     try:
         return np.asarray(values)
@@ -130,11 +132,14 @@ def as_real(value: Any, what: str, low: float, high: float, accepted: str = "a n
 
 
 def as_float(value: Any, what: str, accepted: str = "a number") -> float:
-    """Returns a number, possibly NaN. Raises TypeError otherwise."""
+    """Returns a number, possibly NaN; infinity for integers beyond float64. Raises TypeError
+    otherwise."""
     try:
         if isinstance(value, (str, bytes)):
             raise TypeError  # float() would convert texts
         return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
     except (TypeError, ValueError):
         raise TypeError(f"{what} must be {accepted}, not {value!r}") from None
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ._arrays import as_array
 from .images import Image
 from .materials import Material, Texture
 from .scene import Scene
@@ -35,7 +36,8 @@ def _add(scene: Scene, mesh: Any, name: str, transform: Any) -> None:
     visual: Any = getattr(mesh, "visual", None)
     kind = getattr(visual, "kind", None)
     uv = getattr(visual, "uv", None)
-    vertices, faces, colors = np.asarray(mesh.vertices), np.asarray(mesh.faces), None
+    vertices, faces = as_array(mesh.vertices, "vertices"), as_array(mesh.faces, "faces")
+    colors = None
     normals = _loaded_normals(mesh)
     if kind == "vertex":
         colors = np.asarray(visual.vertex_colors, np.uint8)

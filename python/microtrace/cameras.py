@@ -196,7 +196,11 @@ def _distortion(
 
 
 def _coefficients(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
-    return as_reals(values, name).astype(np.float64).ravel()
+    array = as_reals(values, name)
+    # OpenCV returns coefficients as a row or a column.
+    if max(array.shape, default=1) != array.size:
+        raise ValueError(f"{name} must be the coefficients of one camera, not {array.shape}")
+    return array.astype(np.float64).ravel()
 
 
 def _calibrated(

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from ._arrays import (
     as_array,
     as_float,
+    as_float32,
     as_indices,
     as_integer,
     as_real,
@@ -87,7 +88,8 @@ class RaycastingScene:
             mesh: a mesh of Open3D or trimesh.
 
         Raises:
-            ValueError: an array has a wrong shape, or an index is out of range.
+            ValueError: an array has a wrong shape, a vertex is not finite, or an index is out of
+                range.
             TypeError: an array has a wrong type of numbers, or there is no mesh.
         """
         positions = vertex_positions if vertices is None else vertices
@@ -99,6 +101,8 @@ class RaycastingScene:
         corners = as_rows(_numbers(positions), "vertex_positions", 3)
         faces = as_indices(_numbers(indices), "triangle_indices", 3)
         # Queries would fail later, and all of them.
+        if not np.isfinite(as_float32(corners)).all():
+            raise ValueError("vertex_positions must be finite as float32 numbers")
         if faces.size and int(faces.max()) >= len(corners):
             raise ValueError(
                 f"triangle_indices must be below the number of vertices, {len(corners)}; "
@@ -291,9 +295,8 @@ def _rays_from(eye: Array, directions: Array) -> Tensor:
 
 def _numbers(values: Any) -> Array:
     """Converts lists, arrays, and tensors of other libraries to arrays."""
-    if isinstance(values, np.ndarray):
-        return np.asarray(values)
-    return as_array(values.numpy() if hasattr(values, "numpy") else values, "values")
+    is_tensor = hasattr(values, "numpy") and not isinstance(values, np.ndarray)
+    return as_array(values.numpy() if is_tensor else values, "values")
 
 
 def _arrays_of(mesh: Any) -> tuple[Any, Any]:

@@ -78,7 +78,7 @@ class Picture(Mapping[str, Array]):
     - position, normal, face_normal, barycentric, albedo: float32, 3 channels; uv: float32, 2
       channels. Normals face the viewer.
     - object, primitive, material: uint32; 1 + the index in Scene.objects, the mesh's faces, and
-      Scene.materials.
+      Scene.materials. The material of objects without one is 0.
     - variance, samples: float32; the variance of the mean displayed luminance, and the number of
       samples.
     - denoise_albedo, denoise_normal: float32, 3 channels; means over the samples.
@@ -120,6 +120,11 @@ class Picture(Mapping[str, Array]):
             return self[name]
         except KeyError as error:
             raise AttributeError(error.args[0]) from None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise AttributeError(f"{name} can't be replaced; change the array's elements")
+        super().__setattr__(name, value)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)
@@ -299,7 +304,8 @@ def render(
             seem to float: at this y or, if True, at the lowest point of the scene. With
             transparent=True, shadows are black with alpha.
         crop: (x0, y0, x1, y1): renders only the pixels with x0 <= x < x1 and y0 <= y < y1 of the
-            picture. They equal those of the whole picture. Arrays have the size of this part.
+            picture. They equal those of the whole picture, unless they are denoised. Arrays have
+            the size of this part.
         denoise: removes the noise of path-traced colors by the library Open Image Denoise, which
             pip install "microtrace[denoise]" installs.
         exposure: the exposure, in stops, with which 8-bit colors are shown; color itself doesn't

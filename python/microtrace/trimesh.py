@@ -21,13 +21,14 @@ Array = npt.NDArray[Any]
 class RayMeshIntersector:
     """A replacement for trimesh.ray.ray_triangle.RayMeshIntersector with exact results.
 
-    The mesh's center is subtracted from vertices and ray origins in float64. Then they are rounded
-    to float32, and so are directions. Hits are those of real arithmetic on these numbers, so rays
-    never slip between triangles. As in trimesh, hits at a ray's origin count, and triangles in
-    whose plane the ray lies are not hit; rays still hit their neighbors at the common edges. Of
-    several triangles that a ray enters at a common vertex or edge, only one counts, and so does
-    one of those that it leaves there. Hits at different points count, however close they are. If
-    the mesh has changed, the next query prepares it again.
+    The center of the mesh's bounds is subtracted from vertices and ray origins in float64. Then
+    they are rounded to float32, and so are directions, which powers of two scale exactly. Hits are
+    those of real arithmetic on these numbers, so rays never slip between triangles. As in trimesh,
+    hits at a ray's origin count, and triangles in whose plane the ray lies are not hit; rays still
+    hit their neighbors at the common edges. Of several triangles that a ray enters at a common
+    vertex or edge, only one counts, and so does one of those that it leaves there. Hits at
+    different points count, however close they are. If the mesh has changed, the next query prepares
+    it again.
     """
 
     def __init__(self, mesh: Any, **_: Any) -> None:
@@ -39,9 +40,9 @@ class RayMeshIntersector:
         self,
         ray_origins: npt.ArrayLike,
         ray_directions: npt.ArrayLike,
+        return_locations: bool = False,
         multiple_hits: bool = True,
         max_hits: int | None = None,
-        return_locations: bool = False,
         **_: Any,
     ) -> tuple[Array, ...]:
         """Returns the triangles that rays hit, ray by ray, nearest first.
@@ -49,9 +50,9 @@ class RayMeshIntersector:
         Args:
             ray_origins: (m, 3) real numbers.
             ray_directions: (m, 3) real numbers of any nonzero length.
+            return_locations: also returns positions.
             multiple_hits: False returns only the first hit of each ray.
             max_hits: maximum number of hits per ray; None means all hits.
-            return_locations: also returns positions.
 
         Returns:
             index_tri (h,) int64, index_ray (h,) int64 and, if requested, locations (h, 3) float64.
@@ -122,12 +123,15 @@ class RayMeshIntersector:
         key = hash(self.mesh)
         if self._prepared_scene is None or key != self._key:
             vertices = np.asarray(self.mesh.vertices, np.float64).reshape(-1, 3)
-            finite = vertices[np.isfinite(vertices).all(axis=1)]
+            faces = np.asarray(self.mesh.faces).reshape(-1, 3)
+            # Vertices that no face uses may be anywhere.
+            is_used = np.isin(np.arange(len(vertices)), faces)
+            finite = vertices[is_used & np.isfinite(vertices).all(axis=1)]
             center = np.zeros(3) if len(finite) == 0 else (finite.min(0) + finite.max(0)) / 2
             self._center = center
-            faces = np.asarray(self.mesh.faces).reshape(-1, 3)
             with np.errstate(over="ignore"):
-                self._vertices = (vertices - center).astype(np.float32)
+                moved = np.where(is_used[:, None], vertices - center, 0)
+                self._vertices = moved.astype(np.float32)
             scene = Scene()
             scene.add_mesh(self._vertices, faces)
             self._prepared_scene = scene.prepare()
@@ -155,9 +159,10 @@ class RayMeshIntersector:
             corners = self._vertices[np.asarray(self.mesh.faces)[tri[at]]]
             earlier = self._vertices[np.asarray(self.mesh.faces)[tri[at - lag]]]
             # Compares positions, because vertices with different indices coincide at seams.
-            touch = (corners[:, :, None] == earlier[:, None]).all(axis=3).any(axis=(1, 2))
+            is_shared = (corners[:, :, None] == earlier[:, None]).all(axis=3).any(axis=2)
             # A ray through a sharp edge may enter and leave at the same point.
-            is_new[at] &= ~(touch & (facing[at] == facing[at - lag]))
+            meets = _meet_shared_parts(rays[ray[at]], corners, is_shared)
+            is_new[at] &= ~(meets & (facing[at] == facing[at - lag]))
         return t[is_new], tri[is_new], ray[is_new]
 
     def _nearest(self, rays: Array) -> tuple[Array, Array, Array]:
@@ -192,8 +197,8 @@ class RayMeshIntersector:
         return sign
 
     def _rays(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Returns rays relative to the mesh's center. Scales directions so that their greatest
-        component is 1."""
+        """Returns rays relative to the mesh's center. Scales directions by powers of two, so that
+        their greatest component is in [1, 2)."""
         self._prepared()
         o = as_reals(origins, "ray_origins").astype(np.float64)
         d = as_reals(directions, "ray_directions").astype(np.float64)
@@ -201,10 +206,8 @@ class RayMeshIntersector:
             raise ValueError(
                 f"origins and directions must both have shape (m, 3), not {o.shape} and {d.shape}"
             )
-        greatest = np.abs(d).max(axis=1, keepdims=True, initial=0)
-        with np.errstate(invalid="ignore"):  # infinite directions become NaN, which hits nothing
-            scaled = np.divide(d, greatest, out=np.zeros_like(d), where=greatest > 0)
-        return np.concatenate([o - self._center, scaled], axis=1)
+        exponents = np.frexp(np.abs(d).max(axis=1, keepdims=True, initial=0))[1]
+        return np.concatenate([o - self._center, np.ldexp(d, 1 - exponents)], axis=1)
 
     def _locations(self, rays: Array, tri: Array, t: Array) -> npt.NDArray[np.float64]:
         """Computes hit points in float64 on the triangles' planes, or from t where a ray grazes a
@@ -224,10 +227,46 @@ class RayMeshIntersector:
         return np.asarray(o + parameter[:, None] * d + self._center)
 
 
-def _volume(corners: Array, direction: Array) -> Fraction:
+def _meet_shared_parts(
+    rays: Array, corners: Array, is_shared: npt.NDArray[np.bool_]
+) -> npt.NDArray[np.bool_]:
+    """True for each ray that hits its triangle at an edge or a vertex that another triangle, which
+    it hits at exactly the same t, shares. Others hit overlapping triangles, beside the shared part
+    by more than the rounding errors of float64.
+
+    Args:
+        rays: (n, 6).
+        corners: (n, 3, 3), of the triangles.
+        is_shared: (n, 3), True for shared corners.
+    """
+    with np.errstate(over="ignore"):
+        o, d = rays.astype(np.float32).astype(np.float64).reshape(-1, 2, 3).transpose(1, 0, 2)
+    to = corners - o[:, None]
+
+    def products(a: Array, b: Array) -> tuple[Array, Array]:
+        """Returns the products of whose differences the components of a x b consist."""
+        return np.roll(a, -1, 1) * np.roll(b, -2, 1), np.roll(a, -2, 1) * np.roll(b, -1, 1)
+
+    meets = np.zeros(len(rays), bool)
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        left, right = products(to[:, i], to[:, j])
+        volume = ((left - right) * d).sum(axis=1)
+        size = ((np.abs(left) + np.abs(right)) * np.abs(d)).sum(axis=1)
+        meets |= is_shared[:, i] & is_shared[:, j] & (np.abs(volume) <= 1e-14 * size)
+    vertex = to[np.arange(len(to)), is_shared.argmax(axis=1)]
+    left, right = products(vertex, d)
+    is_through = (np.abs(left - right) <= 1e-14 * (np.abs(left) + np.abs(right))).all(axis=1)
+    return np.asarray(meets | (is_shared.sum(axis=1) == 1) & is_through)
+
+
+def _exactly(vector: Array) -> list[Fraction]:
+    return [Fraction(float(x)) for x in vector]
+
+
+def _volume(corners: Any, direction: Array) -> Fraction:
     """Returns the exact product (b - a) x (c - a) . direction."""
-    a, b, c = ([Fraction(float(x)) for x in corner] for corner in corners)
-    d = [Fraction(float(x)) for x in direction]
+    a, b, c = (_exactly(corner) for corner in corners)
+    d = _exactly(direction)
     u, v = [x - y for x, y in zip(b, a)], [x - y for x, y in zip(c, a)]
     return sum((d[i] * (u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) for i in range(3)), Fraction(0))
 

@@ -39,10 +39,14 @@ def test_wrong_triangles_are_not_added(box):
         (np.eye(3), [[0, 1, -1]], ValueError, "triangle_indices must not be negative"),
         (np.eye(3), np.eye(3), TypeError, "triangle_indices must contain integers"),
         (np.eye(4), [[0, 1, 2]], ValueError, "vertex_positions must have shape"),
+        (np.diag([1, 1, np.nan]), [[0, 1, 2]], ValueError, "vertex_positions must be finite"),
+        (np.diag([1, 1, 1e39]), [[0, 1, 2]], ValueError, "vertex_positions must be finite"),
         (np.eye(3), None, TypeError, "expected vertex positions and triangle indices, or a mesh"),
     ]:
         with pytest.raises(error, match=words):
             box.add_triangles(vertices, triangles)
+    with pytest.raises(ValueError, match="must not have masked values"):
+        box.cast_rays(np.ma.masked_array(RAYS, mask=RAYS == 10))
     assert box.count_intersections(RAYS).tolist() == [2, 1, 0]
     assert box.add_triangles(np.zeros((0, 3)), np.zeros((0, 3), int)) == 1
 

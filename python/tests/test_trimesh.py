@@ -143,12 +143,16 @@ def hits_by_fractions(corners, origin):
         ]
         t = sum(w * p[2] for w, p in zip(sides, (a, b, c))) - origin[2]
         if min(sides) >= 0 and t >= 0:
-            found.append((t, k, area > 0, {a, b, c}))
+            part = {p for w, p in zip(sides, (a, b, c)) if w != 0}  # an edge, a vertex, or all
+            found.append((t, k, area > 0, {a, b, c}, part))
     found.sort(key=lambda hit: hit[:2])
     return [
         hit[1]
         for i, hit in enumerate(found)
-        if not any(g[0] == hit[0] and g[2] == hit[2] and g[3] & hit[3] for g in found[:i])
+        if not any(
+            g[0] == hit[0] and g[2] == hit[2] and len(hit[4]) < 3 and hit[4] <= g[3]
+            for g in found[:i]
+        )
     ]
 
 
@@ -324,3 +328,52 @@ def test_infinite_directions_hit_nothing():
         warnings.simplefilter("error")
         first = engine.intersects_first([[0, 0, 9]] * 4, directions)
     assert (first[:3] == -1).all() and first[3] >= 0
+
+
+def test_exact_directions_stay_exact():
+    box = trimesh.creation.box()
+    random = np.random.default_rng(1)
+    origins = random.integers(-400, 400, (2000, 3)) / 32
+    directions = box.vertices[random.integers(0, 8, 2000)] - origins
+    assert RayMeshIntersector(box).intersects_any(origins, directions).all()
+    assert (
+        RayMeshIntersector(box)
+        .intersects_any([[0, 0, 5]] * 2, [[0, 0, -1e300], [0, 0, -1e-310]])
+        .all()
+    )
+
+
+@pytest.mark.parametrize("stray", [1e9, np.nan, np.inf])
+def test_vertices_that_no_face_uses_have_no_effect(stray):
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    offset = np.array([500000.3, 4000000.7, 12.1])
+    mesh = trimesh.Trimesh(
+        np.vstack([ball.vertices + offset, [[stray, 0, 0]]]), ball.faces, process=False
+    )
+    clean = trimesh.Trimesh(ball.vertices + offset, ball.faces, process=False)
+    random = np.random.default_rng(2)
+    origins, targets = random.uniform(-2, 2, (2, 300, 3))
+    rays = origins + offset, targets - origins
+    ours, others = (RayMeshIntersector(m).intersects_id(*rays, True) for m in (mesh, clean))
+    for a, b in zip(ours, others):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_the_order_of_arguments_is_that_of_trimesh():
+    box = trimesh.creation.box()
+    engines = RayMeshIntersector(box), trimesh.ray.ray_triangle.RayMeshIntersector(box)
+    for more in ([], [True], [True, False], [False, False], [False, True]):
+        ours, theirs = (e.intersects_id([[0.1, 0.2, 5]], [[0, 0, -1]], *more) for e in engines)
+        assert len(ours) == len(theirs)
+        assert len(ours[0]) == len(theirs[0])
+
+
+def test_overlapping_triangles_that_share_a_vertex_are_all_hit():
+    corners = [[-1, -1, 0], [1, -1, 0], [0, 1, 0], [-1, -1, -1], [1, -1, 1]]
+    crossing = trimesh.Trimesh(corners, [[0, 1, 2], [3, 4, 2]], process=False)
+    engine = RayMeshIntersector(crossing)
+    assert engine.intersects_id([[0, 0, 5]], [[0, 0, -1]])[0].tolist() == [0, 1]
+    assert len(engine.intersects_id([[0, 1, 5]], [[0, 0, -1]])[0]) == 1  # at the common vertex
+    box = trimesh.creation.box()
+    double = trimesh.Trimesh(box.vertices, np.vstack([box.faces, box.faces]), process=False)
+    assert len(RayMeshIntersector(double).intersects_id([[0.1, 0.2, 5]], [[0, 0, -1]])[0]) == 4

@@ -141,7 +141,29 @@ def test_masked_arrays(prepared):
         prepared.occluded(rays)
     with pytest.raises(ValueError, match="^vertices must not have masked values"):
         mesh(vertices=np.ma.masked_array(np.eye(3), mask=np.eye(3) > 0))
+    with pytest.raises(ValueError, match="^rays must not have masked values"):
+        prepared.occluded(list(rays))
     assert prepared.occluded(np.ma.masked_array(RAYS)).tolist() == [True]
+
+
+def test_integers_beyond_float64(prepared):
+    with pytest.raises(ValueError, match="^azimuth must be from"):
+        mt.frame(prepared, azimuth=10**400)
+    with pytest.raises(ValueError, match="^exposure must be"):
+        mt.render(prepared, CAMERA, (8, 8), exposure=-(10**400))
+
+
+def test_distortion_of_several_cameras():
+    with pytest.raises(ValueError, match=r"^distortion must be .* one camera, not \(2, 4\)"):
+        mt.cameras(**MATRICES, distortion=np.zeros((2, 4)))
+    for shape in ((5,), (1, 5), (5, 1)):
+        mt.cameras(**MATRICES, distortion=np.full(shape, 0.01))
+
+
+def test_arrays_of_pictures_are_not_replaced(prepared):
+    picture = mt.render(prepared, CAMERA, (8, 8))
+    with pytest.raises(AttributeError, match="^color can't be replaced"):
+        picture.color = picture.color * 0
 
 
 def test_indices_beyond_32_bits():
