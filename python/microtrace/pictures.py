@@ -228,7 +228,8 @@ def frame(
     vertical_fov_degrees: float = 45.0,
     size: tuple[int, int] | None = None,
 ) -> PerspectiveCamera:
-    """Returns a camera that shows the whole scene in pictures of this size.
+    """Returns a camera that shows the whole scene in pictures of this size, including vertices that
+    no face uses.
 
     Args:
         scene: the scene, whose bounded shapes are framed.

@@ -25,7 +25,8 @@ class Mesh(Brief):
     normals: npt.ArrayLike | None = None  #: (V, 3), unit length or zero; None for flat shading
     tangents: npt.ArrayLike | None = None  #: (V, 4): unit tangent, and handedness 1 or -1
     uv: Sequence[npt.ArrayLike] = ()  #: sets of (V, 2); (0, 0) is the upper left corner of an image
-    colors: npt.ArrayLike | None = None  #: (V, 4), linear Rec. 709 and alpha
+    #: (V, 4), linear Rec. 709 and alpha, in [0, 1]. Scene.add_mesh also takes 8-bit sRGB integers.
+    colors: npt.ArrayLike | None = None
     #: (S, 2) integers; lines that are rendered one pixel wide.
     segments: npt.ArrayLike | None = None
 

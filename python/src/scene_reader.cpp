@@ -238,6 +238,12 @@ class Reader {
 
   /// Returns a mesh whose arrays are shared by all objects with the same Python object.
   Mesh mesh_of(const nb::handle& mesh) {
+    // They would be taken for linear numbers from 0 to 255.
+    const nb::object colors = mesh.attr("colors");
+    if (nb::hasattr(colors, "dtype") && nb::str(colors.attr("dtype")).equal(nb::str("uint8"))) {
+      throw nb::value_error(
+          "colors must be linear numbers; Scene.add_mesh converts 8-bit sRGB integers");
+    }
     return meshes_[places_of_meshes_.of(mesh, [&] { meshes_.push_back(fields_of<Mesh>(mesh)); })];
   }
 

@@ -160,6 +160,12 @@ def test_distortion_of_several_cameras():
         mt.cameras(**MATRICES, distortion=np.full(shape, 0.01))
 
 
+def test_colors_of_meshes_are_linear():
+    with pytest.raises(ValueError, match="^colors must be linear numbers"):
+        prepared_with(mt.Mesh(np.eye(3), [[0, 1, 2]], colors=np.full((3, 4), 255, np.uint8)))
+    prepared_with(mt.Mesh(np.eye(3), [[0, 1, 2]], colors=[[1, 1, 1, 1]] * 3))
+
+
 def test_arrays_of_pictures_are_not_replaced(prepared):
     picture = mt.render(prepared, CAMERA, (8, 8))
     with pytest.raises(AttributeError, match="^color can't be replaced"):
