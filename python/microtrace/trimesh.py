@@ -259,14 +259,10 @@ def _meet_shared_parts(
     return np.asarray(meets | (is_shared.sum(axis=1) == 1) & is_through)
 
 
-def _exactly(vector: Array) -> list[Fraction]:
-    return [Fraction(float(x)) for x in vector]
-
-
-def _volume(corners: Any, direction: Array) -> Fraction:
+def _volume(corners: Array, direction: Array) -> Fraction:
     """Returns the exact product (b - a) x (c - a) . direction."""
-    a, b, c = (_exactly(corner) for corner in corners)
-    d = _exactly(direction)
+    a, b, c = ([Fraction(float(x)) for x in corner] for corner in corners)
+    d = [Fraction(float(x)) for x in direction]
     u, v = [x - y for x, y in zip(b, a)], [x - y for x, y in zip(c, a)]
     return sum((d[i] * (u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) for i in range(3)), Fraction(0))
 
