@@ -120,7 +120,7 @@ def _direct(pixels: Any) -> Any:
     return pixels.convert(_CONVERSIONS[mode])
 
 
-def load_map(path: str | PathLike[str]) -> RadianceMap:
+def load_map(path: str | bytes | PathLike[str]) -> RadianceMap:
     """Reads a latitude-longitude map from .exr or, if OpenImageIO is installed, .hdr and other
     formats.
 

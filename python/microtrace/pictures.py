@@ -159,7 +159,7 @@ class Picture(Mapping[str, Array]):
 
     def save(
         self,
-        path: str | PathLike[str],
+        path: str | bytes | PathLike[str],
         exposure: float | None = None,
         tone_map: ToneMap | None = None,
     ) -> None:

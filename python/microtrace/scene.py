@@ -253,13 +253,13 @@ def scene_of(source: Any) -> Scene:
 
 
 def load(
-    path: str | PathLike[str],
+    path: str | bytes | PathLike[str],
     *,
     detail: Literal["shape", "color", "shape_and_color", "all"] = "all",
     variant: str | int = "",
     time: float | None = None,
     animation: str | int = "",
-    allowed_folders: Iterable[str | PathLike[str]] | str | PathLike[str] = (),
+    allowed_folders: Iterable[str | bytes | PathLike[str]] | str | bytes | PathLike[str] = (),
 ) -> Scene:
     """Reads a scene: glTF 2.0 (.gltf, .glb) or microtrace JSON (.json).
 
@@ -297,12 +297,12 @@ class SceneFile:
 
     def __init__(
         self,
-        path: str | PathLike[str],
+        path: str | bytes | PathLike[str],
         *,
         detail: Literal["shape", "color", "shape_and_color", "all"] = "all",
         variant: str | int = "",
         animation: str | int = "",
-        allowed_folders: Iterable[str | PathLike[str]] | str | PathLike[str] = (),
+        allowed_folders: Iterable[str | bytes | PathLike[str]] | str | bytes | PathLike[str] = (),
     ) -> None:
         self._file = _core.SceneFile(
             as_path(path, "path"),

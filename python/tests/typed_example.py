@@ -64,7 +64,7 @@ def render(prepared: mt.PreparedScene, path: Path) -> npt.NDArray[np.float32]:
     ]
     views += mt.cameras(np.diag([9.0, 9.0, 1.0]), np.eye(4), (8, 8), convention="opengl")
     data = mt.render(prepared, views, (8, 8), spp=1, aovs=["color", "depth"], progress=report)
-    data.one(0).save(path)
+    data.one(0).save(bytes(path))
     depth: npt.NDArray[np.float32] = data.depth
     return depth
 
