@@ -173,7 +173,8 @@ void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
       {.roughness = p.roughness,
        .eta = eta_,
        .dielectric = greatest_,
-       .anisotropy = features_.is_anisotropic ? p.anisotropy : F{}},
+       .anisotropy = features_.is_anisotropic ? p.anisotropy : F{},
+       .has_film = features_.has_film},
       [&](const F& cosine) { return features_.has_film ? film_f0_range(cosine) : plain; });
   const F through = loss_.through(), here = loss_.above(wo_.z) * kInversePi;
   const F entering = (1 - p.metallic) * p.transmission;

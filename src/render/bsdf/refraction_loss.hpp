@@ -51,13 +51,14 @@ class RefractionLoss {
     F eta;                          ///< the index of refraction below divided by that above; not 1
     GreatestSchlick<N> dielectric;  ///< the Fresnel term
     F anisotropy = all<N>(0);       ///< strength
+    bool has_film = false;          ///< a thin film, with which f0 depends on the angle
   };
   /// Bounds of f0 of all color channels.
   struct F0Range {
     F least, most;
   };
   /// f0_at(cosine) must return the F0Range for this cosine of the angle of incidence in the thinner
-  /// medium. It depends on the cosine only for thin films.
+  /// medium, on which it depends only if the boundary has a film.
   template <class F0At>
   RefractionLoss(const Boundary& boundary, const F0At& f0_at);
 
@@ -168,13 +169,10 @@ auto RefractionLoss<N>::rows_at(const Place& place, const Boundary& boundary,
     const F0Range f0 = f0_at(cosine);
     return {excess(f0.least - assumed), excess(f0.most - assumed)};
   };
-  bool adapts = any(f90 != 0);
-  for (int i = 0; i < kColumns && !adapts; ++i) {
-    const F0Range outside = f0_excess(cosine_outside(i)), within = f0_excess(cosine_within(i));
-    adapts =
-        any((outside.least != 0) | (outside.most != 0) | (within.least != 0) | (within.most != 0));
+  if (!boundary.has_film) {
+    const auto [least, most] = f0_excess(all<N>(1));
+    if (!any((least != 0) | (most != 0) | (f90 != 0))) return rows;
   }
-  if (!adapts) return rows;
   const auto adapt = [&](const F& cosine, const F& by_f0, const F& by_f90, F& loss) {
     constexpr float kError = 0.005F;  // of the derivatives
     const auto [least, most] = f0_excess(cosine);
@@ -196,7 +194,8 @@ auto RefractionLoss<N>::rows_at(const Place& place, const Boundary& boundary,
 template <int N>
 template <class F0At>
 RefractionLoss<N>::RefractionLoss(const Boundary& boundary, const F0At& f0_at) {
-  const auto& [roughness, eta, dielectric, anisotropy] = boundary;
+  const F &roughness = boundary.roughness, &eta = boundary.eta;
+  const GreatestSchlick<N>& dielectric = boundary.dielectric;
   const F zero{}, one = all<N>(1);
   const auto above_is_thinner = eta > 1;
   above_is_thinner_ = above_is_thinner ? one : zero;
@@ -207,7 +206,7 @@ RefractionLoss<N>::RefractionLoss(const Boundary& boundary, const F0At& f0_at) {
     return rows_at({index, Parabola<N>(clamped(rough, zero, one), kLossRows)}, boundary, f0_at);
   };
   rows_ = rows_of(roughness);
-  if (any(anisotropy > 0)) limit_anisotropic(boundary, rows_of);
+  if (any(boundary.anisotropy > 0)) limit_anisotropic(boundary, rows_of);
   for (int i = 0; i < kColumns; ++i) {
     rows_.outside.column[i] = clamped(rows_.outside.column[i], zero, one);
     rows_.within.column[i] = clamped(rows_.within.column[i], zero, one);
