@@ -238,13 +238,18 @@ class Reader {
 
   /// Returns a mesh whose arrays are shared by all objects with the same Python object.
   Mesh mesh_of(const nb::handle& mesh) {
-    // They would be taken for linear numbers from 0 to 255.
-    const nb::object colors = mesh.attr("colors");
-    if (nb::hasattr(colors, "dtype") && nb::str(colors.attr("dtype")).equal(nb::str("uint8"))) {
-      throw nb::value_error(
-          "colors must be linear numbers; Scene.add_mesh converts 8-bit sRGB integers");
-    }
-    return meshes_[places_of_meshes_.of(mesh, [&] { meshes_.push_back(fields_of<Mesh>(mesh)); })];
+    return meshes_[places_of_meshes_.of(mesh, [&] {
+      refuse_encoded_colors(mesh.attr("colors"));
+      meshes_.push_back(fields_of<Mesh>(mesh));
+    })];
+  }
+
+  /// Refuses 8-bit integers, which would be taken for linear numbers from 0 to 255.
+  static void refuse_encoded_colors(const nb::object& colors) {
+    if (!nb::hasattr(colors, "dtype")) return;
+    if (!nb::str(colors.attr("dtype")).equal(nb::str("uint8"))) return;
+    throw nb::value_error(
+        "colors must be linear numbers; Scene.add_mesh converts 8-bit sRGB integers");
   }
 
   static std::shared_ptr<const Placement> placement_of(const nb::handle& value) {
