@@ -131,7 +131,7 @@ void Emitters::put_textured(std::uint32_t triangle, const Vec2& u, int lane,
                             TriangleChoices<kShadingLanes>& choices) const {
   const TriangleLight& light = triangles_[triangle];
   if (light.is_textured == 0) return;
-  const ShadingPoint point = shading_.point_on(light.id, sampling::triangle_point(u), true, 0);
+  const ShadingPoint point = shading_.texture_point(light.id, sampling::triangle_point(u));
   put(choices.emission, lane, shading_.emission(point));
   choices.coverage[lane] = shading_.coverage(point, false);
 }

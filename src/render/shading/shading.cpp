@@ -184,6 +184,13 @@ ShadingPoint Shading::point_on(PrimitiveId id, const Vec3& barycentrics, bool fr
           .width = width};
 }
 
+ShadingPoint Shading::texture_point(PrimitiveId id, const Vec3& barycentrics) const {
+  const Entry& entry = entry_of(id);
+  const MeshTriangle triangle = entry.triangle(id);
+  return {.at = microtrace::texture_point(triangle.mesh, triangle.index, barycentrics),
+          .look = &looks_[entry.look]};
+}
+
 void Shading::find_texel_address(ShadingPoint& point) {
   const TexturedMaterial& look = *point.look;
   if (look.layout.map == nullptr) return;

@@ -59,6 +59,9 @@ class Shading {
   /// emission is constant, only the side is set.
   [[nodiscard]] ShadingPoint point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
                                       float width) const;
+  /// The front of a point on a mesh triangle, for evaluating emission and coverage without a
+  /// footprint.
+  [[nodiscard]] ShadingPoint texture_point(PrimitiveId id, const Vec3& barycentrics) const;
 
   [[nodiscard]] const Material& material(PrimitiveId id) const { return *look_of(id).material; }
 

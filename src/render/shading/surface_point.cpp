@@ -81,12 +81,15 @@ SurfacePoint surface_point(const Primitives& primitives, const Ray& ray, const H
   return at;
 }
 
+SurfacePoint texture_point(const PlacedMesh& mesh, std::size_t triangle, const Vec3& barycentrics) {
+  SurfacePoint at{.mesh = mesh, .corners = mesh.corners(triangle), .barycentrics = barycentrics};
+  at.find_first_uv();
+  return at;
+}
+
 SurfacePoint surface_point(const PlacedMesh& mesh, std::size_t triangle, const Vec3& barycentrics,
                            bool front) {
-  SurfacePoint at;
-  at.mesh = mesh;
-  at.corners = mesh.corners(triangle);
-  at.barycentrics = barycentrics;
+  SurfacePoint at = texture_point(mesh, triangle, barycentrics);
   at.front = front;
   const Triangle t = triangle_of(mesh, triangle);
   at.p = barycentrics.x * t.a + barycentrics.y * t.b + barycentrics.z * t.c;
