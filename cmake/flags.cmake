@@ -17,6 +17,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # With this optimization, which -O2 includes too, GCC 12.2 for AArch64 writes old values over members that a short loop
   # has stored: packets of rays miss triangles, because set_beams() computes wrong beams.
   target_compile_options(microtrace_flags INTERFACE -fno-predictive-commoning)
+  # With this optimization, GCC 12.2 omits the rounding of double(float(x)) where it converts two numbers at a time
+  # (tests/unit/math/conversions_test.cpp).
+  target_compile_options(microtrace_flags INTERFACE -fno-tree-slp-vectorize)
   # Objcopy can't make unique symbols local (src/CMakeLists.txt).
   target_compile_options(microtrace_flags INTERFACE -fno-gnu-unique)
 endif()

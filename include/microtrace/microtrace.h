@@ -264,8 +264,9 @@ MT_API mt_status mt_film_channel_floats(const mt_film* film, size_t channel, flo
 MT_API mt_status mt_film_channel_integers(const mt_film* film, size_t channel, uint32_t* values);
 
 /* Writes a picture file, and replaces an existing one only when all is written. The extension of
- * `path` selects the format. Returns MT_UNSUPPORTED if the extension is unknown or the format's
- * module is not installed, and MT_IO if the file can't be written. */
+ * `path` selects the format. Returns MT_USAGE if the extension is unknown or the format can't store
+ * the film's alpha or channels, MT_UNSUPPORTED if the format's module is not installed, and MT_IO if
+ * the file can't be written. */
 MT_API mt_status mt_film_save(const mt_film* film, const char* path);
 
 #ifdef __cplusplus

@@ -1,6 +1,8 @@
 #pragma once
 /// The contents of the opaque handles of the C API, and the error handling of its functions.
 
+#include "float_environment.hpp"
+
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/io.hpp>
@@ -35,6 +37,7 @@ mt_status failed() noexcept;
 /// Runs f and returns MT_OK, or the status of an exception that f throws.
 template <class F>
 mt_status guarded(const F& f) noexcept {
+  const FloatEnvironment environment;
   try {
     f();
     return MT_OK;

@@ -27,7 +27,10 @@ namespace {
 }
 
 void check(const std::optional<BrokenRule>& broken, const std::string& what) {
-  if (broken) refuse(what + " " + broken->field + " " + broken->message);
+  if (!broken) return;
+  // Without a field, the message is a sentence.
+  refuse(broken->field.empty() ? broken->message
+                               : what + " " + broken->field + " " + broken->message);
 }
 
 IntegratorOptions integrator_of(const mt_render_options& options, SceneFormat format) {

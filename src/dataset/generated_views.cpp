@@ -1,4 +1,5 @@
 #include "base/split_mix.hpp"
+#include "float_environment.hpp"
 #include "scene/math/trigonometry.hpp"
 
 #include <microtrace/dataset.hpp>
@@ -25,6 +26,7 @@ double random(std::uint64_t seed, std::uint64_t index) {
 }  // namespace
 
 std::vector<DatasetView> orbit_views(std::uint32_t count, double elevation) {
+  const FloatEnvironment environment;
   std::vector<DatasetView> views;
   for (std::uint32_t i = 0; i < count; ++i)
     views.push_back({.camera = View{.azimuth = 360.0 * i / count, .elevation = elevation}});
@@ -32,6 +34,7 @@ std::vector<DatasetView> orbit_views(std::uint32_t count, double elevation) {
 }
 
 std::vector<DatasetView> hemisphere_views(std::uint32_t count) {
+  const FloatEnvironment environment;
   std::vector<DatasetView> views;
   // The angle between consecutive points is 1 / (golden ratio)^2 of a revolution.
   constexpr double kTurn = 2 - std::numbers::phi;
@@ -43,6 +46,7 @@ std::vector<DatasetView> hemisphere_views(std::uint32_t count) {
 }
 
 std::vector<DatasetView> random_views(std::uint32_t count, std::uint32_t seed) {
+  const FloatEnvironment environment;
   std::vector<DatasetView> views;
   for (std::uint64_t i = 0; i < count; ++i)
     views.push_back(view_at(360 * random(seed, 2 * i), 2 * random(seed, 2 * i + 1) - 1));

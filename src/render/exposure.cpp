@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "scene/math/exponential.hpp"
 
 #include <microtrace/exposure.hpp>
@@ -70,6 +71,7 @@ double exposure_for(double value) {
 
 double automatic_exposure(const PreparedScene& scene, const Camera& camera, ImageSize size,
                           const RenderOptions& options) {
+  const FloatEnvironment float_environment;
   const bool is_random = options.integrator != nullptr && options.integrator->is_random();
   // Only surfaces are measured.
   std::optional<Environment> environment =

@@ -1,4 +1,5 @@
 #include "base/runs.hpp"
+#include "float_environment.hpp"
 #include "scene/math/exponential.hpp"
 #include "scene/tone_map.hpp"
 
@@ -80,6 +81,7 @@ void for_each_run_of_colors(const Film& film, F&& f) {
 
 FilmView view_of(const Film& film, const PreparedScene& prepared, const Camera& camera,
                  const RenderOptions& options) {
+  const FloatEnvironment float_environment;
   const Scene& scene = prepared.scene();
   const std::optional<Environment>& environment =
       options.environment ? options.environment : scene.environment;

@@ -1,5 +1,6 @@
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
+#include "float_environment.hpp"
 #include "scene/kernels/triangle.hpp"
 
 #include <microtrace/surface_interaction.hpp>
@@ -210,12 +211,14 @@ std::optional<Result> interpolate(const TrianglePoint& at, const Array<Value>& v
 }  // namespace
 
 std::optional<DVec2> SurfaceInteraction::uv(std::size_t set) const {
+  const FloatEnvironment environment;
   if (!triangle || !triangle->mesh) return std::nullopt;
   const auto& sets = triangle->mesh.arrays->uv_sets;
   return set < sets.size() ? interpolate<DVec2>(*triangle, sets[set]) : std::nullopt;
 }
 
 DVec2 SurfaceInteraction::uv_step(std::size_t set, const DVec3& dp) const {
+  const FloatEnvironment environment;
   if (!uv(set)) return DVec2(0);
   const PlacedMesh& mesh = triangle->mesh;
   const auto& [i, j, k] = triangle->corners;
@@ -233,11 +236,13 @@ DVec2 SurfaceInteraction::uv_step(std::size_t set, const DVec3& dp) const {
 }
 
 DVec4 SurfaceInteraction::color() const {
+  const FloatEnvironment environment;
   if (!triangle || !triangle->mesh) return DVec4(1);
   return interpolate<DVec4>(*triangle, triangle->mesh.arrays->colors).value_or(DVec4(1));
 }
 
 bool shows_front(const Triangle& triangle, const Vec3& d) {
+  const FloatEnvironment environment;
   const TriangleCorners<1> t = corners_of(triangle);
   const DVec3 e1 = t.b - t.a, e2 = t.c - t.a, direction(d);
   const double slope = glm::dot(direction, glm::cross(e1, e2));
@@ -248,6 +253,7 @@ bool shows_front(const Triangle& triangle, const Vec3& d) {
 }
 
 SurfaceInteraction interact(const Primitives& primitives, const Ray& ray, const Hit& hit) {
+  const FloatEnvironment environment;
   return primitives.visit(hit.id, Interaction(primitives, ray, hit));
 }
 

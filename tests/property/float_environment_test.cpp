@@ -3,11 +3,9 @@
 
 #include "float_environment.hpp"
 
-#include "support/cases/adversarial_rays.hpp"
-#include "support/cases/generated_meshes.hpp"
+#include "support/host_rules.hpp"
 #include "support/source_folder.hpp"
 
-#include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
 #include <microtrace/framing.hpp>
 #include <microtrace/io.hpp>
@@ -15,10 +13,7 @@
 #include <microtrace/render.hpp>
 #include <microtrace/sample_sums.hpp>
 
-#include <algorithm>
 #include <cfenv>
-#include <cstdint>
-#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -28,59 +23,7 @@
 namespace microtrace {
 namespace {
 
-bool is_flushing() {
-  volatile float least = std::numeric_limits<float>::denorm_min();
-  return least * 1.0F == 0;
-}
-
-#if defined(__x86_64__)
-/// Returns the x87 control word, which sets rounding and precision of long double.
-std::uint16_t x87_control() {
-  std::uint16_t control = 0;
-  __asm__ volatile("fnstcw %0" : "=m"(control));
-  return control;
-}
-
-/// Sets the precision of long double to 24 or to 64 bits.
-void set_x87_precision(bool is_short) {
-  const auto control =
-      static_cast<std::uint16_t>((x87_control() & ~0x300U) | (is_short ? 0U : 0x300U));
-  __asm__ volatile("fldcw %0" : : "m"(control));
-}
-#endif
-
-void flush_subnormals(bool flush) {
-#if defined(__x86_64__)
-  const std::uint32_t bits = (1U << 6U) | (1U << 15U);
-  const std::uint32_t now = __builtin_ia32_stmxcsr();
-  __builtin_ia32_ldmxcsr(flush ? now | bits : now & ~bits);
-  set_x87_precision(flush);
-#else
-  std::uint64_t now;
-  __asm__ volatile("mrs %0, fpcr" : "=r"(now));
-  now = flush ? now | (1U << 24U) : now & ~(std::uint64_t{1} << 24U);
-  __asm__ volatile("msr fpcr, %0" : : "r"(now));
-#endif
-}
-
-class HostRules : public testing::TestWithParam<int> {
- protected:
-  void set() {
-    std::fesetround(GetParam());
-    flush_subnormals(true);
-  }
-  void expect_kept() {
-    EXPECT_EQ(std::fegetround(), GetParam());
-    EXPECT_TRUE(is_flushing());
-#if defined(__x86_64__)
-    EXPECT_EQ(x87_control() & 0x300U, 0U);
-#endif
-  }
-  void TearDown() override {
-    std::fesetround(FE_TONEAREST);
-    flush_subnormals(false);
-  }
-};
+using tests::HostRules;
 
 INSTANTIATE_TEST_SUITE_P(Rounding, HostRules,
                          testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
@@ -239,57 +182,6 @@ TEST_P(HostRules, TrapsOfTheHostAreRestored) {
   expect_kept();
   TearDown();
   EXPECT_TRUE(actual == expected);
-}
-
-// The triangle is smaller than the least normal number. If subnormals were flushed to zero, it
-// would be a point.
-TEST_P(HostRules, ChangeNoHit) {
-  constexpr float kLeast = std::numeric_limits<float>::denorm_min();
-  Scene scene;
-  const Triangle tiny{Vec3(-2 * kLeast, -2 * kLeast, 0), Vec3(3 * kLeast, 0, 0),
-                      Vec3(0, 3 * kLeast, 0)};
-  for (int i = 0; i < 20; ++i) scene.objects.push_back({.name = "", .shape = tiny});
-  const Ray ray{.o = {kLeast, kLeast, 1}, .d = {0, 0, -1}};
-  for (const std::size_t count : {std::size_t{1}, std::size_t{20}}) {
-    scene.objects.resize(count, {.name = "", .shape = tiny});
-    set();
-    const Bvh bvh(scene);
-    const auto hit = bvh.intersect(ray);
-    const bool occluded = bvh.occluded(ray);
-    const std::vector<Ray> rays(64, ray);
-    std::vector<std::optional<Hit>> hits(64);
-    bvh.intersect(rays, hits);
-    expect_kept();
-    TearDown();
-    ASSERT_TRUE(hit.has_value());
-    EXPECT_EQ(hit->id, 0U);
-    EXPECT_EQ(hit->t, 1);
-    EXPECT_TRUE(occluded);
-    EXPECT_TRUE(
-        std::all_of(hits.begin(), hits.end(), [](const auto& h) { return h && h->id == 0; }));
-  }
-}
-
-TEST_P(HostRules, ChangeNoParameter) {
-  Scene scene;
-  scene.objects.push_back({.name = "", .shape = generated::displaced_sphere(5000)});
-  const Bvh bvh(scene);
-  adversarial::Random random(5);
-  std::vector<Ray> rays(1000);
-  for (Ray& ray : rays) ray = {.o = random.in_cube(3), .d = random.in_cube(1)};
-  for (std::size_t i = 500; i < 564; ++i) rays[i].o = rays[500].o;  // a packet
-  std::vector<std::optional<Hit>> expected(rays.size()), together(rays.size()), singly;
-  bvh.intersect(rays, expected);
-  set();
-  bvh.intersect(rays, together);
-  for (const Ray& ray : rays) singly.push_back(bvh.intersect(ray));
-  expect_kept();
-  TearDown();
-  const auto same = [](const std::optional<Hit>& a, const std::optional<Hit>& b) {
-    return a.has_value() == b.has_value() && (!a || (a->id == b->id && a->t == b->t));
-  };
-  EXPECT_TRUE(std::equal(expected.begin(), expected.end(), together.begin(), same));
-  EXPECT_TRUE(std::equal(expected.begin(), expected.end(), singly.begin(), same));
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ std::optional<Vec3> spawn_origin(const Quadric& surface, const Ray& ray, const V
 
 std::optional<Vec3> spawn_origin(const Primitives& primitives, PrimitiveId id, const Ray& ray,
                                  const Vec3& direction) {
+  const FloatEnvironment environment;
   return primitives.visit(id,
                           [&](const auto& shape) { return spawn_origin(shape, ray, direction); });
 }

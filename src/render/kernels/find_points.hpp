@@ -79,6 +79,15 @@ void intersect_planes(HitArrays<width>& hits, int i) {
   narrowed<N>(length, hits.area + i);
 }
 
+/// Returns sqrt(area in texture coordinates / area in world space) of triangles with these texture
+/// coordinates of their corners. `area` is twice the area in world space.
+template <int N>
+Float<N> uv_scale(const Floats2<N> (&uv)[3], const Float<N>& area) {
+  const Floats2<N> e1{uv[1].x - uv[0].x, uv[1].y - uv[0].y};
+  const Floats2<N> e2{uv[2].x - uv[0].x, uv[2].y - uv[0].y};
+  return square_root<N>(magnitude(Float<N>(e1.x * e2.y - e1.y * e2.x)) / area);
+}
+
 /// Interpolates the attributes of points by the barycentric weights that intersect_planes() has
 /// computed.
 template <int N, int width>
@@ -95,13 +104,12 @@ void interpolate(HitArrays<width>& hits, int i) {
   ns = select3(square > 0, unit<N>(ns), n);
   // In some files, the winding contradicts the normals. The winding defines the front side.
   store3<N>(hits.ns, i, select3(dot(ns, n) < 0, V(-ns), ns));
-  const auto at = [&](int corner, int axis) { return load<N>(hits.uv[corner][axis] + i); };
-  for (int axis = 0; axis < 2; ++axis)
-    store<N>(hits.first_uv[axis] + i, weighed(at(0, axis), at(1, axis), at(2, axis)));
-  const F e1x = at(1, 0) - at(0, 0), e1y = at(1, 1) - at(0, 1);
-  const F e2x = at(2, 0) - at(0, 0), e2y = at(2, 1) - at(0, 1);
-  const F uv_area = magnitude(F(e1x * e2y - e1y * e2x));
-  store<N>(hits.uv_scale + i, square_root<N>(uv_area / load<N>(hits.area + i)));
+  Floats2<N> uv[3];
+  for (int corner = 0; corner < 3; ++corner)
+    uv[corner] = {load<N>(hits.uv[corner][0] + i), load<N>(hits.uv[corner][1] + i)};
+  store<N>(hits.first_uv[0] + i, weighed(uv[0].x, uv[1].x, uv[2].x));
+  store<N>(hits.first_uv[1] + i, weighed(uv[0].y, uv[1].y, uv[2].y));
+  store<N>(hits.first_uv_scale + i, uv_scale<N>(uv, load<N>(hits.area + i)));
 }
 
 /// Computes all points and attributes, with vectors of N floats.

@@ -32,7 +32,7 @@ struct alignas(width * sizeof(float)) HitArrays {
   Floats is_sure;  ///< 1 if the other results are valid, otherwise 0
   Floats p[3], n[3], ns[3], weights[3], first_uv[2];
   Floats from_behind;  ///< 1 if the ray hits the back, otherwise 0
-  Floats distance, uv_scale;
+  Floats distance, first_uv_scale;
   Floats area;  ///< twice the triangle's area
 };
 using HitLanes = HitArrays<kShadingLanes>;

@@ -122,6 +122,7 @@ SampleSums& SampleSums::operator+=(const SampleSums& other) {
 }
 
 Film develop(const SampleSums& sums, Film::Alpha alpha) {
+  const FloatEnvironment environment;
   const ImageSize size = sums.window.size();
   Film film(size, alpha);
   film.whole = sums.whole;

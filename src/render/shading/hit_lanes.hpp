@@ -8,8 +8,8 @@
 
 namespace microtrace {
 
-[[nodiscard]] inline bool has_uv(const Mesh& mesh) {
-  return !mesh.uv_sets.empty() && !mesh.uv_sets[0].empty();
+[[nodiscard]] inline bool has_uv(const Mesh& mesh, std::uint32_t set = 0) {
+  return set < mesh.uv_sets.size() && !mesh.uv_sets[set].empty();
 }
 
 /// Prefetches what put_positions() and put_attributes() read.
@@ -48,7 +48,7 @@ void get_attributes(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
   at.ns = got(lanes.ns, lane);
   const bool is_textured = has_uv(*at.mesh.arrays);
   at.first_uv = is_textured ? Vec2(lanes.first_uv[0][lane], lanes.first_uv[1][lane]) : Vec2(0);
-  at.uv_scale = is_textured ? lanes.uv_scale[lane] : 0;
+  at.first_uv_scale = is_textured ? lanes.first_uv_scale[lane] : 0;
 }
 
 /// Sets all members that find_points() has computed. lanes.is_sure must be 1 for this lane, and

@@ -20,6 +20,12 @@ Value weighed(const std::array<std::uint32_t, 3>& corners, const Vec3& weights,
          weights.z * values[corners[2]];
 }
 
+/// A normal of the triangle whose length is twice the area.
+DVec3 doubled_area(const PlacedMesh& mesh, const std::array<std::uint32_t, 3>& corners) {
+  const DVec3 a(mesh.position(corners[0]));
+  return glm::cross(DVec3(mesh.position(corners[1])) - a, DVec3(mesh.position(corners[2])) - a);
+}
+
 }  // namespace
 
 SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hit) {
@@ -38,10 +44,21 @@ SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hi
 }
 
 Vec2 SurfacePoint::further_uv(std::uint32_t set) const {
-  if (!mesh) return Vec2(0);
-  const auto& sets = mesh.arrays->uv_sets;
-  return set < sets.size() && !sets[set].empty() ? weighed(corners, barycentrics, sets[set])
-                                                 : Vec2(0);
+  return mesh && has_uv(*mesh.arrays, set)
+             ? weighed(corners, barycentrics, mesh.arrays->uv_sets[set])
+             : Vec2(0);
+}
+
+float SurfacePoint::further_uv_scale(std::uint32_t set) const {
+  if (!mesh || !has_uv(*mesh.arrays, set) || is_edge_on) return 0;
+  const auto area = static_cast<float>(glm::length(doubled_area(mesh, corners)));
+  if (!(area > 0)) return 0;
+  Floats2<1> uv[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2& at = mesh.arrays->uv_sets[set][corners[i]];
+    uv[i] = {at.x, at.y};
+  }
+  return microtrace::uv_scale<1>(uv, area);
 }
 
 Vec4 SurfacePoint::color() const {
@@ -93,9 +110,8 @@ SurfacePoint surface_point(const PlacedMesh& mesh, std::size_t triangle, const V
   at.front = front;
   const Triangle t = triangle_of(mesh, triangle);
   at.p = barycentrics.x * t.a + barycentrics.y * t.b + barycentrics.z * t.c;
-  const DVec3 a(t.a);
-  const DVec3 n = glm::cross(DVec3(t.b) - a, DVec3(t.c) - a);
-  const double area = std::sqrt(glm::dot(n, n));
+  const DVec3 n = doubled_area(mesh, at.corners);
+  const double area = glm::length(n);
   if (!(area > 0)) return at;
   HitArrays<1> lanes;
   put_attributes(lanes, 0, mesh, at.corners);

@@ -25,11 +25,16 @@ struct SurfacePoint {
   bool is_edge_on = false;  ///< true for mesh triangles for which find_points() is not sure
   std::array<std::uint32_t, 3> corners{};  ///< vertex indices of the triangle
   Vec3 barycentrics{1, 0, 0};              ///< weights of the vertices
-  Vec2 first_uv{0};    ///< texture coordinates of set 0; (0, 0) if the mesh has none
-  float uv_scale = 0;  ///< sqrt(area in texture coordinates of set 0 / area in world space)
+  Vec2 first_uv{0};          ///< texture coordinates of set 0; (0, 0) if the mesh has none
+  float first_uv_scale = 0;  ///< uv_scale(0)
 
   /// Texture coordinates; (0, 0) if the mesh doesn't have this set.
   [[nodiscard]] Vec2 uv(std::uint32_t set) const { return set == 0 ? first_uv : further_uv(set); }
+  /// sqrt(area in texture coordinates of this set / area in world space); 0 if the mesh doesn't
+  /// have the set, or if the triangle is edge-on or has no area.
+  [[nodiscard]] float uv_scale(std::uint32_t set) const {
+    return set == 0 ? first_uv_scale : further_uv_scale(set);
+  }
   /// Computes first_uv from the barycentrics.
   void find_first_uv() { first_uv = further_uv(0); }
   /// The interpolated vertex color; white if the mesh has no colors.
@@ -40,6 +45,7 @@ struct SurfacePoint {
 
  private:
   [[nodiscard]] Vec2 further_uv(std::uint32_t set) const;
+  [[nodiscard]] float further_uv_scale(std::uint32_t set) const;
 };
 
 /// The interpolated vertex color; white if there are none.

@@ -1,5 +1,7 @@
 #include "render/shading/texture_slots.hpp"
 
+#include "render/shading/hit_lanes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,7 +9,8 @@
 namespace microtrace {
 
 TexelAddress<1> TextureSlot::texel_address(const ShadingPoint& point) const {
-  return texel_address(point.at.uv(use->uv_set), point.width * point.at.uv_scale);
+  const float width = point.width > 0 ? point.width * point.at.uv_scale(use->uv_set) : 0;
+  return texel_address(point.at.uv(use->uv_set), width);
 }
 
 TexelAddress<1> TextureSlot::texel_address(const Vec2& uv, float width) const {
@@ -23,10 +26,9 @@ Vec4 TextureSlot::look_up(const ShadingPoint& point) const {
 bool TextureSlot::is_magnified(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners,
                                double part) const {
   if (map == nullptr) return true;
-  // As in SurfacePoint::uv_scale, set 0 determines the size of footprints.
   double area = 0;
-  if (!mesh.uv_sets.empty() && !mesh.uv_sets[0].empty()) {
-    const auto uv = [&](std::size_t i) { return DVec2(mesh.uv_sets[0][corners[i]]); };
+  if (has_uv(mesh, use->uv_set)) {
+    const auto uv = [&](std::size_t i) { return DVec2(mesh.uv_sets[use->uv_set][corners[i]]); };
     const DVec2 e1 = uv(1) - uv(0), e2 = uv(2) - uv(0);
     area = std::abs(e1.x * e2.y - e1.y * e2.x);
   }

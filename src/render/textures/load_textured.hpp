@@ -20,7 +20,8 @@ struct alignas(64) TexelAddresses {
   void find(const TexelLayout& layout, const HitLanes& hits, const LaneFloats& widths, int i) {
     const auto& m = layout.grid_from_uv;
     const Float<N> u = load<N>(hits.first_uv[0] + i), v = load<N>(hits.first_uv[1] + i);
-    const Float<N> width = load<N>(widths + i) * load<N>(hits.uv_scale + i) * layout.width_scale;
+    const Float<N> width =
+        load<N>(widths + i) * load<N>(hits.first_uv_scale + i) * layout.width_scale;
     const TexelAddress<N> at = texel_address<N>(layout.grid, m[0][0] * u + m[1][0] * v + m[2][0],
                                                 m[0][1] * u + m[1][1] * v + m[2][1], width);
     const auto put = [&](const auto& from, auto* to) {

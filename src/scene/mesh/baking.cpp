@@ -1,3 +1,5 @@
+#include "float_environment.hpp"
+
 #include <microtrace/shape.hpp>
 
 #include <cstddef>
@@ -17,6 +19,7 @@ void replace(Array<T>& array, const Value& value) {
 }  // namespace
 
 Mesh baked(const Mesh& mesh) {
+  const FloatEnvironment environment;
   Mesh result = mesh;
   if (!mesh.placement) return result;
   replace(result.positions, [&](std::size_t i) { return mesh.position(i); });

@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "scene/material_textures.hpp"
 #include "scene/mesh/shared_meshes.hpp"
 #include "scene/validate/check_indices.hpp"
@@ -110,6 +111,7 @@ void check_indices(const Scene& scene) {
 }
 
 void validate(const Scene& scene) {
+  const FloatEnvironment environment;
   SharedMeshes checked;
   for (const ObjectRun& run : scene.objects.runs()) {
     if (const PlacedMesh first = run.mesh(0); first.placement != nullptr) {

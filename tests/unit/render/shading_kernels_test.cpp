@@ -56,7 +56,7 @@ TEST_P(ShadingKernelsTest, PointsHaveTheBitsOfOneLane) {
       expect_bits(lanes.ns, expected.ns, i, "ns");
       expect_bits(lanes.weights, expected.weights, i, "weights");
       expect_bits(lanes.first_uv, expected.first_uv, i, "uv");
-      expect_bits(lanes.uv_scale[i], expected.uv_scale[i], "uv_scale");
+      expect_bits(lanes.first_uv_scale[i], expected.first_uv_scale[i], "first_uv_scale");
       expect_bits(lanes.distance[i], expected.distance[i], "distance");
       expect_bits(lanes.from_behind[i], expected.from_behind[i], "from_behind");
     }

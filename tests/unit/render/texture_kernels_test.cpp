@@ -120,7 +120,7 @@ struct Use {
     const float u = hits.first_uv[0][lane], v = hits.first_uv[1][lane];
     return texture.map().sample(
         {m[0][0] * u + m[1][0] * v + m[2][0], m[0][1] * u + m[1][1] * v + m[2][1]},
-        widths[lane] * hits.uv_scale[lane] * layout.width_scale);
+        widths[lane] * hits.first_uv_scale[lane] * layout.width_scale);
   }
 };
 
@@ -147,7 +147,7 @@ TEST_P(TextureKernelsTest, TexelsHaveTheBitsOfSingleLookups) {
     for (int i = 0; i < kShadingLanes; ++i) {
       for (auto& uv : hits.first_uv) uv[i] = random_coordinate(random);
       widths[i] = std::exp2(20 * random.signed_unit());
-      hits.uv_scale[i] = std::exp2(3 * random.signed_unit());
+      hits.first_uv_scale[i] = std::exp2(3 * random.signed_unit());
       for (auto& channel : textured.color) channel[i] = random.number();
       textured.least_alpha[i] = kind < 0.3F   ? -std::numeric_limits<float>::infinity()
                                 : kind < 0.4F ? 2
