@@ -102,6 +102,8 @@ LoadedScene read(Reader& reader, const std::filesystem::path& folder, LoadOption
   const io::JsonDocument& document = std::get<io::JsonDocument>(reader);
   if (!options.variant.empty())
     throw Error(ErrorKind::usage, document.file(), "has no variants, so none can be chosen");
+  if (!options.animation.empty())
+    throw Error(ErrorKind::usage, document.file(), "has no animations, so none can be chosen");
   if (options.detail == SurfaceDetail::usual) options.detail = SurfaceDetail::color;
   LoadedScene result = io::read_json_scene(document, folder, options);
   if (options.time) {

@@ -11,6 +11,7 @@ DVec3 translation_to_origin(const PointBounds& bounds) {
   const DVec3 middle = (bounds.low + bounds.high) * 0.5, half = (bounds.high - bounds.low) * 0.5;
   const double size = std::max({half.x, half.y, half.z});
   DVec3 way(0);
+  if (size == 0) return way - middle;
   if (!(size > 0 && size < 0x1p60)) return way;
   int exponent = 0;
   std::frexp(size, &exponent);

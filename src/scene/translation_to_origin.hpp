@@ -33,7 +33,7 @@ struct PointBounds {
 /// The translation that moves a scene with these bounds to the origin if the scene's distance is
 /// large compared with its size; otherwise zero. On each axis, the translation is a multiple of a
 /// power of two that exceeds the size. Coordinates that float32 could represent before the
-/// translation therefore remain exact.
+/// translation therefore remain exact. A scene of a single position is moved to the origin.
 [[nodiscard]] DVec3 translation_to_origin(const PointBounds& bounds);
 
 }  // namespace microtrace

@@ -19,7 +19,7 @@ void close(std::string& text, char bracket) {
 
 void append_json(std::string& text, double x) {
   std::array<char, 32> digits{};
-  const bool is_integer = std::trunc(x) == x && std::abs(x) <= 0x1p53 && !std::signbit(x);
+  const bool is_integer = std::trunc(x) == x && std::abs(x) <= 0x1p53;
   const std::to_chars_result written =
       is_integer ? std::to_chars(digits.begin(), digits.end(), static_cast<std::int64_t>(x))
                  : std::to_chars(digits.begin(), digits.end(), x, std::chars_format::scientific);

@@ -8,7 +8,8 @@
 namespace microtrace::io {
 
 /// Appends a value as compact JSON that parses to the same value. Omits members with these names at
-/// any depth. Integers within +-2^53 have no fraction and no exponent.
+/// any depth. Integers within +-2^53 have no fraction and no exponent; -0 becomes 0, because
+/// readers of integers might not accept it.
 void append_json(std::string& text, const JsonValue& value,
                  std::span<const std::string_view> left_out);
 

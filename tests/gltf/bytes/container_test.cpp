@@ -72,6 +72,11 @@ TEST(GltfContainer, ZeroBytesAfterTheJsonGiveAWarning) {
   EXPECT_THAT(texts(loaded.warnings), testing::ElementsAre(HasSubstr("padded with zero bytes")));
 }
 
+TEST(GltfContainer, CaseHasNoMeaningInMediaTypes) {
+  const std::string uri = "data:Application/Octet-Stream;base64," + base64(cube().buffer);
+  expect_same_cube(load(cube().with_buffer(uri.c_str()).dump()));
+}
+
 TEST(GltfContainer, Base64MayBePercentEncoded) {
   std::string uri = "data:application/octet-stream;base64," + base64(cube().buffer);
   const auto last = static_cast<unsigned char>(uri.back());

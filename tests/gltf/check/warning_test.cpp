@@ -50,6 +50,55 @@ TEST(GltfWarning, SupportedFeaturesGiveNone) {
   EXPECT_THAT(texts(load(asset).warnings), IsEmpty());
 }
 
+// JSON's -0 and -0.0 are the integer 0.
+TEST(GltfWarning, MinusZeroIsZero) {
+  AssetBuilder asset = cube();
+  asset.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0.25}}}}};
+  asset.json["meshes"][0]["primitives"][0]["material"] = -0.0;
+  for (const char* array : {"accessors", "bufferViews"}) {
+    for (Json& item : asset.json[array]) {
+      for (const char* key : {"bufferView", "buffer", "byteOffset"})
+        if (item.contains(key) && item[key] == 0) item[key] = -0.0;
+    }
+  }
+  asset.json["scenes"][0]["nodes"][0] = -0.0;
+  const LoadedScene loaded = load(asset);
+  EXPECT_THAT(texts(loaded.warnings), IsEmpty());
+  ASSERT_EQ(loaded.scene.objects.size(), 1U);
+  EXPECT_EQ(loaded.scene.objects[0].material, 0U);
+}
+
+TEST(GltfWarning, MatricesOfSmallNumbersHavePaddedColumns) {
+  AssetBuilder asset = cube();
+  const std::size_t accessor = asset.add_accessor("MAT3", std::string(8 * 12, '\1'), kUint8, false);
+  asset.json["accessors"][accessor]["count"] = 8;
+  asset.json["meshes"][0]["primitives"][0]["attributes"]["_M"] = accessor;
+  EXPECT_THAT(texts(load(asset).warnings), IsEmpty());
+}
+
+TEST(GltfWarning, TexturesOfUnknownExtensionsNeedNoCoordinates) {
+  AssetBuilder asset = cube();
+  asset.json["extensionsUsed"] = {"X_toon"};
+  asset.json["materials"] = Json::parse(
+      R"([{"extensions": {"X_toon": {"matcapTexture": {"index": 99, "texCoord": 3}}}}])");
+  asset.json["meshes"][0]["primitives"][0]["material"] = 0;
+  EXPECT_THAT(texts(load(asset).warnings), ElementsAre(HasSubstr("/extensionsUsed/0")));
+}
+
+TEST(GltfWarning, TextureCoordinatesBeyondTheLimitAreNamed) {
+  AssetBuilder asset = cube();
+  Json& primitive = asset.json["meshes"][0]["primitives"][0];
+  for (int set = 0; set <= 16; ++set)
+    primitive["attributes"]["TEXCOORD_" + std::to_string(set)] =
+        asset.add_numbers("VEC2", std::vector<float>(16, 0.5F));
+  primitive["material"] = 0;
+  asset.json["textures"] = Json::array({Json::object()});
+  asset.json["materials"] = {
+      {{"emissiveTexture", {{"index", 0}, {"texCoord", 16}}}, {"emissiveFactor", {1, 1, 1}}}};
+  EXPECT_THAT(texts(load(asset, {.detail = SurfaceDetail::all}).warnings),
+              testing::Contains(HasSubstr("needs TEXCOORD_16")));
+}
+
 TEST(GltfWarning, EqualWarningsBecomeOneWithACount) {
   AssetBuilder asset = cube();
   const Json shining = {{"emissiveFactor", {0, 0, 1}}};

@@ -153,6 +153,7 @@ TEST(GltfTexture, DataUrisMustDeclareTheirMediaType) {
               testing::Contains(HasSubstr("/images/0/uri: has the media type")));
   asset.json["images"][0] = {{"uri", "data:Image/PNG;base64," + png}};
   EXPECT_THAT(load(asset).scene.images.at(0), NotNull());
+  EXPECT_THAT(texts(load(asset).warnings), testing::IsEmpty());
 }
 
 TEST(GltfTexture, OnlyVisibleImagesAreDecoded) {

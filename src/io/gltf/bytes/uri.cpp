@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -55,9 +56,10 @@ std::optional<DataUri> split_data_uri(std::string_view uri) {
       starts_with_ignoring_case(type.substr(type.size() - kMarker.size()), kMarker);
   if (is_base64) type.remove_suffix(kMarker.size());
   if (type.ends_with(';') || type.find(";;") != std::string_view::npos) return std::nullopt;
-  return DataUri{.media_type = type.substr(0, type.find(';')),
-                 .is_base64 = is_base64,
-                 .data = uri.substr(comma + 1)};
+  std::string media_type(type.substr(0, type.find(';')));
+  std::ranges::transform(media_type, media_type.begin(), lower);
+  return DataUri{
+      .media_type = std::move(media_type), .is_base64 = is_base64, .data = uri.substr(comma + 1)};
 }
 
 std::optional<std::string> decode_percent(std::string_view text) {

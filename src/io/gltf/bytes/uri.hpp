@@ -9,9 +9,11 @@ namespace microtrace::io::gltf {
 
 /// A data URI (RFC 2397).
 struct DataUri {
-  std::string_view media_type;  ///< media type without parameters
-  bool is_base64 = false;       ///< if false, the data is percent-encoded
-  std::string_view data;        ///< data, not yet decoded
+  /// The media type without parameters, in small letters: case has no meaning in it (RFC 2045,
+  /// section 5.1).
+  std::string media_type;
+  bool is_base64 = false;  ///< if false, the data is percent-encoded
+  std::string_view data;   ///< data, not yet decoded
 };
 
 [[nodiscard]] bool is_data_uri(std::string_view uri);

@@ -54,8 +54,8 @@ void check_version(Asset& asset) {
   }
   if (!least) return;
   const Element at = info.member("minVersion");
-  if (least->first != 2) {
-    asset.fail(at, "requires a version other than glTF 2, the supported one",
+  if (least->first > 2) {
+    asset.fail(at, "requires a later version than glTF 2, the supported one",
                ErrorKind::unsupported);
   }
   if (*least > *written) {

@@ -184,10 +184,9 @@ class MeshCheck {
   void alignment(const Element& at) const {
     const AccessorHead& head = accessors_[*at.value];
     if (!head.view) return;
-    const std::size_t components =
-        head.format.type == "SCALAR" ? 1 : static_cast<std::size_t>(head.format.type.back() - '0');
     const std::size_t stride =
-        head.stride != 0 ? head.stride : components * component_size(head.format.component_type);
+        head.stride != 0 ? head.stride
+                         : element_size(element_type(head.format.type), head.format.component_type);
     if (head.offset % 4 != 0 || head.start % 4 != 0 || stride % 4 != 0) {
       asset_.tolerate(at, "has vertices that do not all start at a multiple of 4 bytes");
     }
@@ -232,7 +231,13 @@ class MeshCheck {
     if (index == nullptr) return;
     const MaterialTextures& textures = infos_[index_from(*index)];
     for (const auto& [name, set] : textures.sets) {
-      if (attributes.value->find("TEXCOORD_" + text(set)) != nullptr) continue;
+      if (attributes.value->find("TEXCOORD_" + text(set)) != nullptr) {
+        if (set >= kMaxUvSets)
+          asset_.warn(at.member("material"), "needs TEXCOORD_" + text(set) + " for its " + name +
+                                                 ", but only the first " + text(kMaxUvSets) +
+                                                 " sets are read; (0, 0) is used");
+        continue;
+      }
       asset_.tolerate(at.member("material"), "needs TEXCOORD_" + text(set) + " for its " + name +
                                                  ", which the primitive does not have");
     }

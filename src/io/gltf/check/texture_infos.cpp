@@ -1,6 +1,7 @@
 #include "io/gltf/check/texture_infos.hpp"
 
 #include "io/gltf/document/extension.hpp"
+#include "io/gltf/extensions/extensions.hpp"
 
 namespace microtrace::io::gltf {
 namespace {
@@ -15,10 +16,18 @@ double set_of(const JsonValue& info) {
 }
 
 /// Collects the texture infos in an object. By check_schema's rules, these are the objects whose
-/// key ends in "Texture".
+/// key ends in "Texture". Extensions without rules may mean something else by it.
 void collect(const JsonValue& object, std::vector<std::pair<std::string, double>>& sets) {
   for (const JsonMember& member : object.members()) {
     if (member.key == "extras" || member.value.kind() != JsonValue::Kind::object) continue;
+    if (member.key == "extensions") {
+      for (const JsonMember& added : member.value.members()) {
+        const Extension* known = find_extension(added.key);
+        const bool has_rules = known != nullptr && known->object_in(Place::material) != nullptr;
+        if (has_rules) collect(added.value, sets);
+      }
+      continue;
+    }
     const JsonValue* index = member.value.find("index");
     if (member.key.ends_with("Texture") && index != nullptr) {
       sets.emplace_back(member.key, set_of(member.value));

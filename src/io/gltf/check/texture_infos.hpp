@@ -3,11 +3,15 @@
 
 #include "io/gltf/document/asset.hpp"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace microtrace::io::gltf {
+
+/// The maximum number of texture coordinate sets. glTF 2.0 requires support for two.
+inline constexpr std::uint32_t kMaxUvSets = 16;
 
 struct MaterialTextures {
   std::vector<std::pair<std::string, double>> sets;  ///< each texture's key and TEXCOORD set

@@ -39,18 +39,12 @@ std::string_view media_type(ImageFormat format) {
 }
 
 /// Returns the declared media type of an image. Empty if undeclared.
-std::string_view declared_type(const Element& at) {
+std::string declared_type(const Element& at) {
   if (const JsonValue* type = at.value->find("mimeType")) return type->string();
   const JsonValue* uri = at.value->find("uri");
   if (uri == nullptr) return {};
   const std::optional<DataUri> data = split_data_uri(uri->string());
-  return data ? data->media_type : std::string_view();
-}
-
-std::string small_letters(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return result;
+  return data ? data->media_type : std::string();
 }
 
 /// True if the type is that of the format. Accepts image/jpg, which is not registered but common.
@@ -62,7 +56,7 @@ bool is_type_of(std::string_view type, ImageFormat format) {
 /// 2.8), as the Khronos validator does.
 bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   constexpr std::array<std::string_view, 2> kNotDecoded = {"image/avif", "image/vnd-ms.dds"};
-  const std::string type = small_letters(split_data_uri(uri.value->string())->media_type);
+  const std::string type = split_data_uri(uri.value->string())->media_type;
   const bool is_right = format == ImageFormat::unknown
                             ? std::ranges::find(kNotDecoded, type) != kNotDecoded.end()
                             : is_type_of(type, format);
@@ -115,7 +109,7 @@ class ImageLoader {
       problem = {violation, at, "holds an image that is truncated; "};
       return nullptr;
     }
-    const std::string_view type = declared_type(at);
+    const std::string type = declared_type(at);
     if (is_right && !type.empty() && !is_type_of(type, header.format)) {
       asset_.tolerate(at, "is declared as " + in_quotes(std::string(type)) + ", but it is " +
                               std::string(media_type(header.format)));

@@ -1,5 +1,7 @@
 #include "io/gltf/mesh/vertex_attributes.hpp"
 
+#include "io/gltf/check/texture_infos.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <string>

@@ -14,9 +14,6 @@
 
 namespace microtrace::io::gltf {
 
-/// The maximum number of texture coordinate sets. glTF 2.0 requires support for two.
-inline constexpr std::uint32_t kMaxUvSets = 16;
-
 /// The attributes that the vertices of a primitive need.
 struct AttributeWish {
   const Material& material;  ///< material of the primitive

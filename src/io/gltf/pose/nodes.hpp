@@ -51,8 +51,9 @@ class NodeTree {
   [[nodiscard]] std::vector<DMat4> everywhere(const DMat4& world_from_asset, const PosedNodes& pose,
                                               ZeroScale zero = ZeroScale::kept) const;
 
-  /// Returns the names of the node's ancestors and of the node, separated by slashes. Keeps at most
-  /// the last 256 bytes. Nodes without a name are called node0, node1 and so on, by index.
+  /// Returns the names of the node's ancestors and of the node, separated by slashes. If these are
+  /// more than 256 bytes, keeps whole names at the end and puts ".../" before them. Nodes without a
+  /// name are called node0, node1 and so on, by index.
   [[nodiscard]] std::string path(std::size_t node) const;
   [[nodiscard]] std::string name(std::size_t node) const;
 
