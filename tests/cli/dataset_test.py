@@ -95,6 +95,15 @@ class Dataset(ProgramTest):
             self.run_program(scene, *options, "--time", str((3 + view // 2) / 4), "--view", f"{180 * (view % 2)},25", "-o", "alone.png")
             self.assertEqual((self.folder / "alone.png").read_bytes(), picture, view)
 
+    def test_one_camera_frames_the_poses_of_all_frames(self):
+        scene = SOURCE / "scenes/gltf/moving.glb"
+        options = ["--view", "30,20", "--frames", "0:2", "--fps", "4", *SMALL, "--integrator", "flat"]
+        self.dataset(*options, scene=scene)
+        self.run_program(scene, *options, "-o", "frame%06d.png")
+        for frame in range(3):
+            name = f"{frame:06d}.png"
+            self.assertEqual((self.folder / f"frame{name}").read_bytes(), self.contents()[name], frame)
+
     def test_bop_needs_objects_that_do_not_move(self):
         scene = SOURCE / "scenes/gltf/moving.glb"
         options = [*SMALL, "--integrator", "flat", "--formats", "bop", "--views", "orbit:2"]

@@ -68,6 +68,35 @@ TEST(RadianceMapFile, ExrStoresTheNumbersUnchanged) {
   expect_equal(*load_radiance_map(folder / "half.EXR").map, panorama(), 0);
 }
 
+TEST(RadianceMapFile, PartsAreAtTheirPlaces) {
+  const Folder folder;
+  Film whole = panorama(), part({.width = 3, .height = 2});
+  part.whole = whole.size();
+  part.x0 = 4;
+  part.y0 = 1;
+  for (std::uint32_t y = 0; y < 4; ++y) {
+    for (std::uint32_t x = 0; x < 8; ++x) {
+      const bool is_there = x >= 4 && x < 7 && y >= 1 && y < 3;
+      if (is_there)
+        part.at(x - 4, y - 1) = whole.at(x, y);
+      else
+        whole.at(x, y) = Vec3(0);
+    }
+  }
+  save_image(part, folder / "part.exr");
+  const LoadedRadianceMap loaded = load_radiance_map(folder / "part.exr");
+  EXPECT_TRUE(loaded.warnings.empty());
+  expect_equal(*loaded.map, whole, 0);
+  // Pixels beyond the whole picture are left out.
+  save_image(panorama(), folder / "a.exr");
+  convert((folder / "a.exr").string() + " --fullsize 4x2+2+1 -o " + (folder / "b.exr").string());
+  const LoadedRadianceMap inner = load_radiance_map(folder / "b.exr");
+  ASSERT_EQ(inner.map->width, 4U);
+  ASSERT_EQ(inner.map->height, 2U);
+  EXPECT_EQ(inner.map->pixels[0], panorama().at(2, 1));
+  EXPECT_EQ(inner.map->pixels[7], panorama().at(5, 2));
+}
+
 TEST(RadianceMapFile, HdrIsAccurateToEightBits) {
   const Folder folder;
   save_image(panorama(), folder / "a.hdr");

@@ -59,6 +59,7 @@ ViewRenderer::ViewRenderer(Arguments& arguments, Warnings& warnings)
   file_.emplace(arguments_.scene, arguments_.load);
   apply_defaults(arguments_, file_->format());
   integrator_ = make_integrator(*arguments_.integrator);
+  if (arguments_.frames) framing_ = frame_all(*file_, Sequence(arguments_), arguments_);
   if (arguments_.denoises) denoiser_.emplace();
 }
 
@@ -163,6 +164,9 @@ CameraOptions ViewRenderer::camera_options(const DatasetView& view, std::uint32_
 
 Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, ImageSize size) const {
   if (const auto* camera = std::get_if<Camera>(&view.camera)) return in_scene(*scene_, *camera);
+  const auto* name = std::get_if<std::string>(&view.camera);
+  if (framing_ && !view.size && name != nullptr && name->empty())
+    return in_coordinates_of(*scene_, *framing_);
   return choose_camera(*scene_, camera_options(view, index), size);
 }
 

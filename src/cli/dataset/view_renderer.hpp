@@ -80,8 +80,9 @@ class ViewRenderer {
   std::string variant_;                   ///< of file_
   std::optional<std::uint64_t> objects_;  ///< digest of the objects, for check_objects()
   std::optional<SceneFile> file_;
-  std::optional<DatasetView> loaded_;  ///< the view whose scene is loaded
-  std::string environment_source_;     ///< of environment_
+  std::optional<PerspectiveCamera> framing_;  ///< of all frames, in world space
+  std::optional<DatasetView> loaded_;         ///< the view whose scene is loaded
+  std::string environment_source_;            ///< of environment_
   std::optional<Environment> environment_;
   std::shared_ptr<const Scene> scene_;
   std::optional<PreparedScene> prepared_;  ///< of scene_

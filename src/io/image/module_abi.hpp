@@ -71,6 +71,10 @@ struct MicrotraceColors {
   std::uint32_t width, height;
   std::uint32_t channels;   ///< 1: gray, 3: rgb, 4: rgb and alpha as stored in the file
   MicrotraceNumber number;  ///< U8, U16 or F32
+  /// Where the upper left pixel is in the whole picture, and the size of the whole picture. Files
+  /// of some formats store only a part of it, or pixels beyond it.
+  std::int32_t x0, y0;
+  std::uint32_t whole_width, whole_height;
 };
 
 struct MicrotraceColorSink {
@@ -93,6 +97,6 @@ namespace microtrace::io {
 
 inline constexpr char kFindFormatName[] = "microtrace_find_format_v4";
 inline constexpr char kEncodeName[] = "microtrace_encode_v5";
-inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v2";
+inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v3";
 
 }  // namespace microtrace::io

@@ -67,6 +67,18 @@ std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
   throw std::runtime_error("it has neither channels R, G and B nor a single one");
 }
 
+std::int32_t distance(int from, int to) {
+  const std::int64_t difference = std::int64_t{to} - from;
+  if (difference != static_cast<std::int32_t>(difference))
+    throw std::runtime_error("its windows are too far apart");
+  return static_cast<std::int32_t>(difference);
+}
+
+/// The number of pixels between two numbers, which are included.
+std::uint32_t length(int first, int last) {
+  return static_cast<std::uint32_t>(std::int64_t{last} - first + 1);
+}
+
 void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink) {
   // Makes OpenEXR reject larger images before it allocates memory for their lines.
   Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
@@ -79,13 +91,15 @@ void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink
     if (channel.xSampling != 1 || channel.ySampling != 1)
       throw std::runtime_error("its channel " + name + " does not have a sample for each pixel");
   }
-  const Box2i window = file.header().dataWindow();
-  const auto width = static_cast<std::int64_t>(window.max.x) - window.min.x + 1;
-  const auto height = static_cast<std::int64_t>(window.max.y) - window.min.y + 1;
-  const MicrotraceColors colors{.width = static_cast<std::uint32_t>(width),
-                                .height = static_cast<std::uint32_t>(height),
+  const Box2i window = file.header().dataWindow(), whole = file.header().displayWindow();
+  const MicrotraceColors colors{.width = length(window.min.x, window.max.x),
+                                .height = length(window.min.y, window.max.y),
                                 .channels = static_cast<std::uint32_t>(names.size()),
-                                .number = kMicrotraceF32};
+                                .number = kMicrotraceF32,
+                                .x0 = distance(whole.min.x, window.min.x),
+                                .y0 = distance(whole.min.y, window.min.y),
+                                .whole_width = length(whole.min.x, whole.max.x),
+                                .whole_height = length(whole.min.y, whole.max.y)};
   auto* samples = static_cast<float*>(sink.begin(sink.context, &colors));
   if (samples == nullptr) throw std::runtime_error("it is too large");
   const std::size_t stride = names.size() * sizeof(float);
@@ -102,7 +116,7 @@ void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_decode_colors_v2(
+__attribute__((visibility("default"))) int microtrace_decode_colors_v3(
     const void* bytes, std::size_t size, const char* /*extension*/,
     const MicrotraceColorSink* sink) {
   try {

@@ -73,7 +73,11 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   const MicrotraceColors colors{.width = static_cast<std::uint32_t>(spec.width),
                                 .height = static_cast<std::uint32_t>(spec.height),
                                 .channels = static_cast<std::uint32_t>(count),
-                                .number = number_of(spec)};
+                                .number = number_of(spec),
+                                .x0 = 0,
+                                .y0 = 0,
+                                .whole_width = static_cast<std::uint32_t>(spec.width),
+                                .whole_height = static_cast<std::uint32_t>(spec.height)};
   void* samples = sink.begin(sink.context, &colors);
   if (samples == nullptr) throw std::runtime_error("it is too large");
   if (!reader->read_image(0, 0, first, first + count, type_of(colors.number), samples))
@@ -85,7 +89,7 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_decode_colors_v2(
+__attribute__((visibility("default"))) int microtrace_decode_colors_v3(
     const void* bytes, std::size_t size, const char* extension, const MicrotraceColorSink* sink) {
   try {
     decode(bytes, size, extension, *sink);

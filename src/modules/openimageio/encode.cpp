@@ -29,10 +29,16 @@ std::unique_ptr<ImageOutput> find_writer(const std::string& extension) {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);  // uses only the calling thread
   std::unique_ptr<ImageOutput> writer = ImageOutput::create(extension);
-  // Fetches the error message, which OpenImageIO would otherwise print at exit.
-  if (!writer) static_cast<void>(OIIO::geterror());
-  if (writer && (!writer->supports("ioproxy") || std::string_view(writer->format_name()) == "null"))
+  if (!writer) {
+    // Fetches the error message, which OpenImageIO would otherwise print at exit.
+    static_cast<void>(OIIO::geterror());
     return nullptr;
+  }
+  const std::string_view format = writer->format_name();
+  // The writer for PNM stores three colors under any extension, also for gray and floating-point
+  // pictures.
+  const bool is_other_pnm = format == "pnm" && extension != "pnm";
+  if (!writer->supports("ioproxy") || format == "null" || is_other_pnm) return nullptr;
   return writer;
 }
 
@@ -41,10 +47,10 @@ bool is_float_format(std::string_view name) {
   return name == "hdr";
 }
 
-/// Returns true for formats that preserve alpha exactly. GIF's alpha has only one bit, and writers
-/// of other formats change the colors.
+/// Returns true for formats that preserve alpha exactly. GIF's alpha has only one bit, writers of
+/// other formats change the colors, and few programs find the alpha that OpenImageIO writes to BMP.
 bool holds_alpha(std::string_view name) {
-  constexpr std::array kNames = {"png", "tiff", "targa", "webp", "bmp"};
+  constexpr std::array kNames = {"png", "tiff", "targa", "webp"};
   return std::ranges::find(kNames, name) != kNames.end();
 }
 

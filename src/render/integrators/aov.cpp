@@ -1,4 +1,3 @@
-#include "base/split_mix.hpp"
 #include "float_environment.hpp"
 #include "render/aovs/sights.hpp"
 
@@ -16,12 +15,17 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A color for an id. It is never dark. Consecutive ids have different colors.
+/// A color that 8 bits represent exactly and that is never dark. Different ids have different
+/// colors, except that these repeat after 192^3 ids. Consecutive ids have very different colors.
 Vec3 color_of_id(std::uint32_t id) {
-  const auto part = [bits = split_mix(id)](int shift) {
-    return 0.25F + 0.75F * static_cast<float>(bits >> shift & 0xFFU) / 255;
-  };
-  return {part(0), part(8), part(16)};
+  constexpr std::uint64_t kDarkest = 64, kValues = 256 - kDarkest;
+  // Near the golden ratio times kValues^3, and without common factors with it.
+  constexpr std::uint64_t kStep = 4374377;
+  std::uint64_t rest = id * kStep % (kValues * kValues * kValues);
+  Vec3 color;
+  for (glm::length_t i = 0; i < 3; ++i, rest /= kValues)
+    color[i] = static_cast<float>(kDarkest + rest % kValues) / 255;
+  return color;
 }
 
 template <class F>

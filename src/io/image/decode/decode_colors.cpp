@@ -33,8 +33,11 @@ void* begin_colors(void* context, const MicrotraceColors* colors) {
   auto& decoded = *static_cast<ColorDecoding*>(context);
   const std::uint64_t pixels = std::uint64_t{colors->width} * colors->height;
   decoded.colors = *colors;
+  const auto exceeds = [](std::uint32_t width, std::uint32_t height) {
+    return width > kMaxSide || height > kMaxSide || std::uint64_t{width} * height > kMaxPixels;
+  };
   decoded.is_too_large =
-      colors->width > kMaxSide || colors->height > kMaxSide || pixels > kMaxPixels;
+      exceeds(colors->width, colors->height) || exceeds(colors->whole_width, colors->whole_height);
   if (decoded.is_too_large) return nullptr;
   try {
     const std::size_t count = pixels * colors->channels;

@@ -7,6 +7,7 @@
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -34,13 +35,22 @@ std::vector<float> srgb_table() {
   return table;
 }
 
-/// Fills the pixels. value(i) must return sample i in linear light.
+/// Fills the pixels of the whole picture for which the file has samples. value(i) must return
+/// sample i in linear light.
 template <class Value>
-void fill(const MicrotraceColors& colors, Value&& value, std::vector<Vec3>& pixels) {
-  const std::size_t channels = colors.channels;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::size_t first = i * channels, step = channels == 1 ? 0 : 1;
-    pixels[i] = Vec3(value(first), value(first + step), value(first + 2 * step));
+void fill(const MicrotraceColors& colors, Value&& value, RadianceMap& map) {
+  const std::size_t channels = colors.channels, step = channels == 1 ? 0 : 1;
+  const auto begin = [](std::int32_t from) { return std::max(from, 0); };
+  const auto end = [](std::int32_t from, std::uint32_t size, std::uint32_t whole) {
+    return std::clamp<std::int64_t>(std::int64_t{from} + size, 0, whole);
+  };
+  for (std::int64_t y = begin(colors.y0); y < end(colors.y0, colors.height, map.height); ++y) {
+    for (std::int64_t x = begin(colors.x0); x < end(colors.x0, colors.width, map.width); ++x) {
+      const auto of_file = static_cast<std::size_t>((y - colors.y0) * colors.width + x - colors.x0);
+      const std::size_t first = of_file * channels;
+      map.pixels[static_cast<std::size_t>(y * map.width + x)] =
+          Vec3(value(first), value(first + step), value(first + 2 * step));
+    }
   }
 }
 
@@ -71,27 +81,27 @@ LoadedRadianceMap load_radiance_map(const std::filesystem::path& path, MemoryBud
        .hint = "an environment must be a latitude-longitude map such as .hdr or .exr",
        .otherwise = "use an environment without a file"});
   const MicrotraceColors& colors = decoded.colors;
-  RadianceMap map{.width = colors.width, .height = colors.height};
+  RadianceMap map{.width = colors.whole_width, .height = colors.whole_height};
   MemoryAccount memory_of_map(memory);
-  memory_of_map.take(std::uint64_t{colors.width} * colors.height * sizeof(Vec3),
+  memory_of_map.take(std::uint64_t{map.width} * map.height * sizeof(Vec3),
                      "the pixels of an environment");
   try {
-    map.pixels.resize(std::size_t{colors.width} * colors.height);
+    map.pixels.resize(std::size_t{map.width} * map.height);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::limit, path.string(), "is too large for the available memory");
   }
   if (const auto* floats = std::get_if<std::vector<float>>(&decoded.samples)) {
     fill(
-        colors, [&](std::size_t i) { return (*floats)[i]; }, map.pixels);
+        colors, [&](std::size_t i) { return (*floats)[i]; }, map);
   } else if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&decoded.samples)) {
     const std::vector<float> table = srgb_table<std::uint8_t>();
     fill(
-        colors, [&](std::size_t i) { return table[(*bytes)[i]]; }, map.pixels);
+        colors, [&](std::size_t i) { return table[(*bytes)[i]]; }, map);
   } else {
     const auto& words = std::get<std::vector<std::uint16_t>>(decoded.samples);
     const std::vector<float> table = srgb_table<std::uint16_t>();
     fill(
-        colors, [&](std::size_t i) { return table[words[i]]; }, map.pixels);
+        colors, [&](std::size_t i) { return table[words[i]]; }, map);
   }
   LoadedRadianceMap out;
   const auto warn = [&](std::string&& message) {
@@ -104,10 +114,9 @@ LoadedRadianceMap load_radiance_map(const std::filesystem::path& path, MemoryBud
          " pixels of the environment are negative, too bright or not numbers; they are clamped to "
          "0 and 1e9");
   }
-  if (colors.width != 2 * colors.height) {
+  if (map.width != 2 * map.height) {
     warn("an environment is a latitude-longitude map, twice as wide as high; this one of " +
-         std::to_string(colors.width) + " x " + std::to_string(colors.height) +
-         " pixels is stretched");
+         std::to_string(map.width) + " x " + std::to_string(map.height) + " pixels is stretched");
   }
   const auto counted =
       std::make_shared<CountedMap>(CountedMap{std::move(map), std::move(memory_of_map)});

@@ -9,6 +9,7 @@
 #include <microtrace/io.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -65,6 +66,21 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
   if (std::max(width, height) > format.most_side)
     refuse(" holds at most " + std::to_string(format.most_side) +
            " pixels in width and height; write .png");
+}
+
+/// Throws Error(usage) if the film has numbers that formats with one exponent for three colors
+/// can't hold. Their writers would change them without a word.
+void require_colors(const Film& film, const std::filesystem::path& path,
+                    const std::string& extension) {
+  for (std::uint32_t y = 0; y < film.size().height; ++y) {
+    for (const Vec3& color : film.row(y)) {
+      for (glm::length_t i = 0; i < 3; ++i) {
+        if (color[i] >= 0 && std::isfinite(color[i])) continue;
+        throw Error(ErrorKind::usage, path.string(),
+                    "." + extension + " can't hold negative or infinite numbers; write .exr");
+      }
+    }
+  }
 }
 
 /// The writer for files with a given extension. Loads its module if necessary. Formats that need no
@@ -128,6 +144,8 @@ void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding
       .alpha = film.has_alpha(), .channels = !film.channels.empty(), .size = film.size()};
   const Writer writer(path, extension);
   require(contents, writer.format(), path, extension);
+  if (writer.format().is_float != 0 && writer.format().has_channels == 0)
+    require_colors(film, path, extension);
   std::optional<io::AtomicFile> beside;
   if (sidecar != nullptr) {
     beside.emplace(sidecar->path);
