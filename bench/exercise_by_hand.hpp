@@ -1,5 +1,5 @@
 #pragma once
-/// A solution of the course exercise as one writes it by hand: the usual formulas in float32, one
+/// A ray tracer for the example scenes as one writes it by hand: the usual formulas in float32, one
 /// ray and one primitive at a time. The peer for pictures of simple scenes. It shares no code with
 /// microtrace, because it is compiled with -march=native and -ffast-math.
 

@@ -31,8 +31,8 @@ struct BvhOptions {
   bool fast_build = false;  ///< faster build and slower tracing, for previews
   unsigned threads = 0;     ///< number of threads for the build; 0: default_threads()
   /// Bvh::tree() of a scene with the same primitives at different positions, such as the previous
-  /// frame of an animation. Refitting the boxes of this tree to the new positions is several times
-  /// faster than a build. A new tree is built if the primitives differ, or if the cost of the
+  /// frame of an animation. Refitting the boxes of this tree to the new positions takes about half
+  /// of the time of a build. A new tree is built if the primitives differ, or if the cost of the
   /// refitted tree would exceed max_cost_growth times the cost when the tree was built. The cost is
   /// the surface area heuristic's estimate for a ray, relative to the area of the primitives'
   /// boxes.
@@ -133,7 +133,7 @@ class MICROTRACE_EXPORT Bvh {
   [[nodiscard]] const Primitives& primitives() const;
 
   /// Returns a box that contains all primitives, in scene coordinates. Returns nothing if a
-  /// primitive is unbounded, or if the scene is so small that it has no tree.
+  /// primitive is not in the tree: planes, quadrics, and small numbers of other shapes.
   [[nodiscard]] std::optional<Box> bounds() const;
 
   /// Returns the size of the tree in bytes, without the scene.

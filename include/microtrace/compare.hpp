@@ -67,8 +67,8 @@ struct PictureDifference {
                                                                    double threshold = 0,
                                                                    const Display& display = {});
 
-/// Returns the absolute differences of the colors, of which 8-bit formats show the eightfold. A
-/// greater difference of alpha replaces those of the colors.
+/// Returns the absolute differences of the colors, of which 8-bit formats show eight
+/// times the value. A greater difference of alpha replaces those of the colors.
 /// Throws Error (usage) if the sizes differ.
 [[nodiscard]] MICROTRACE_EXPORT Film difference_picture(const StoredPicture& a,
                                                         const StoredPicture& b,

@@ -38,11 +38,12 @@ class MICROTRACE_EXPORT Denoiser {
   [[nodiscard]] std::string name() const;
 
   /// Replaces the film's colors by denoised ones. The film must be a picture of PathIntegrator with
-  /// the channels of kDenoiseFeatures. Alpha and channels remain unchanged, and so do colors where
+  /// the channels of kDenoiseFeatures. Channels remain unchanged, and so do colors where
   /// no surface is visible, except for edges of lamps. Light that reaches the camera without being
   /// scattered (the channel emission) has no noise; only the rest of each color is filtered. If
-  /// Film::has_lens or Film::has_ground is true, channels contain noise: they are filtered first,
-  /// and the background and emission are filtered, too. Sets Film::denoiser.
+  /// Film::has_lens or Film::has_ground is true, channels contain noise: they are filtered before
+  /// their use, and the background, alpha and emission are filtered, too. Otherwise, alpha remains
+  /// unchanged. Sets Film::denoiser.
   ///
   /// Only the options threads, progress and memory have an effect. The library starts its own
   /// threads. Throws Error: usage if a channel

@@ -66,7 +66,8 @@ struct FixedSum {
     return *this;
   }
 
-  /// Returns the sum, rounded to float64.
+  /// Returns the sum in float64. Its words are rounded one by one, so the last bit may differ from
+  /// that of the nearest number.
   [[nodiscard]] double value() const {
     const bool is_negative = (words[Words - 1] >> 63U) != 0;
     const FixedSum magnitude = is_negative ? negated() : *this;

@@ -24,9 +24,10 @@ struct View {
 
 /// Finds a perspective camera for a picture of a given size. All bounded shapes lie within the
 /// inner 90 % of the picture's width and height. They touch two opposite edges of this region.
-/// Along the other axis, their margins are equal to within 7 % of the picture, mostly to within
-/// 0.2 %. The camera keeps a distance from the nearest point, measured along the viewing direction,
-/// of at least 1/64 of the diagonal of the shapes' bounding box.
+/// Along the other axis, their margins are equal to within 0.2 % of the picture in most scenes; of
+/// 20 000 scenes of few triangles, two differed by more than 7 %. The camera keeps a distance from
+/// the nearest point, measured along the viewing direction, of at least 1/64 of the diagonal of the
+/// shapes' bounding box.
 ///
 /// Planes, quadrics other than ellipsoids, and vertices that are not finite are ignored. If all
 /// shapes coincide in one point, the camera is at distance 1 from that point; without shapes, from

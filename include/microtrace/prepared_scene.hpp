@@ -35,8 +35,9 @@ struct PrepareOptions {
 };
 
 /// A scene with its tree. Immutable and cheap to copy; copies share everything. Any number of
-/// threads may use it at the same time. The constructor builds the tree; mip maps and light tables
-/// are made by the first picture that needs them.
+/// threads may use it at the same time. The constructor builds the tree; mip maps, light tables,
+/// and the trees of scenes with points or line segments are made by the first picture that needs
+/// them.
 ///
 /// Rays, points and normals are in world space. If Scene::origin is not zero, ray origins are
 /// translated in float64 and rounded to float32 once. To avoid this rounding, use bvh() with rays

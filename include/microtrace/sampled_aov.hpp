@@ -1,7 +1,7 @@
 #pragma once
 /// Statistics of the samples of each pixel, for Monte Carlo integrators, stored as channels beside
-/// the colors. Unlike the quantities of aov.hpp, they are computed from all samples of a pixel,
-/// with the same pixel filter as the colors.
+/// the colors. Unlike the quantities of aov.hpp, they are computed from samples of a pixel, with
+/// the same pixel filter as the colors. Those for denoising have numbers of samples of their own.
 
 #include <microtrace/export.hpp>
 

@@ -80,7 +80,8 @@ class Volume(Brief):
 
 @dataclass(eq=False, repr=False)
 class VolumeScatter(Brief):
-    """Scattering in the medium of the volume (KHR_materials_volume_scatter, a draft of 2025)."""
+    """Scattering in the medium of the volume (KHR_materials_volume_scatter, a draft of 2025). It has
+    no effect if Volume.attenuation_distance is infinite, which is the default."""
 
     multiscatter_color: Color = (0.0, 0.0, 0.0)  #: color of a thick body, each in [0, 1]
     scatter_anisotropy: float = 0.0  #: mean cosine of scattering angles, in [-1, 1]
@@ -152,8 +153,8 @@ class SpecularGlossiness(Brief):
 @dataclass(eq=False, repr=False)
 class Material(Brief):
     """The material of a surface. Factors are multiplied by textures. glTF's default for
-    metallic_factor is 1. Here it is 0, so that a material with only a base_color_factor has this
-    color in any light."""
+    metallic_factor is 1. Here it is 0, so that a material with only a base_color_factor isn't a
+    metal."""
 
     name: str = ""
     base_color_factor: ColorAlpha = (1.0, 1.0, 1.0, 1.0)  #: with alpha, each in [0, 1]

@@ -76,11 +76,11 @@ class Picture(Mapping[str, Array]):
     - depth, distance: float32; infinite where nothing is visible. The other data arrays are 0
       there.
     - position, normal, face_normal, barycentric, albedo: float32, 3 channels; uv: float32, 2
-      channels. Normals face the viewer.
+      channels. face_normal faces the viewer, and normal is on the side that the viewer sees.
     - object, primitive, material: uint32; 1 + the index in Scene.objects, the mesh's faces, and
       Scene.materials. The material of objects without one is 0.
-    - variance, samples: float32; the variance of the mean displayed luminance, and the number of
-      samples.
+    - variance, samples: float32; the variance of the mean luminance of the samples over the background,
+      and the number of samples.
     - denoise_albedo, denoise_normal: float32, 3 channels; means over the samples.
     - emission, noisy: float32, 3 channels; light that arrives without being scattered, and the
       colors before denoising.
@@ -284,8 +284,8 @@ def render(
             scene.
         size: width and height in pixels. Default: the scene's size.
         spp: samples per pixel. Default: 64 for path tracing, otherwise 1.
-        aovs: the arrays to render; see Picture. If they include none of color, variance, samples
-            and the denoise arrays, no light is computed and rendering takes only milliseconds.
+        aovs: the arrays to render; see Picture. If they include none of color, variance, samples,
+            emission, noisy and the denoise arrays, no light is computed and rendering takes only milliseconds.
         integrator: "path" for path tracing or "flat" for base colors without lighting. Default: the
             scene's integrator.
         environment: replaces the scene's environment.
@@ -295,7 +295,7 @@ def render(
             the color.
         filter: the pixel filter.
         seed: random seed. Different seeds give different noise.
-        max_depth: maximum path length. 1 shows only emission; 2 adds direct light.
+        max_depth: maximum path length, up to 65536. 1 shows only emission; 2 adds direct light.
         bsdf: the formulas for surfaces. "conserving" keeps the energy of light that is scattered
             several times; "spec" has those of the glTF specification, for comparisons with other
             renderers.
@@ -308,11 +308,11 @@ def render(
             picture. They equal those of the whole picture, unless they are denoised. Arrays have
             the size of this part.
         denoise: removes the noise of path-traced colors by the library Open Image Denoise, which
-            pip install "microtrace[denoise]" installs.
+            pip install '.[denoise]' in a clone of the repository installs.
         exposure: the exposure, in stops, with which 8-bit colors are shown; color itself doesn't
             depend on it. "auto" is the exposure nearest to 0 at which surfaces are neither blown
             out nor black to the first camera; a small picture of 48 pixels is rendered for it.
-            Default: "auto" for path-traced glTF assets and arrays with lights, else 0.
+            Default: "auto" for path-traced glTF assets, and scenes from arrays that have lights, else 0.
         shutter: renders motion blur. Colors, variance and samples show the scenes and cameras of
             the shutter; other arrays show `scene` and `camera`.
         threads: number of threads; 0 means all processors. It has no effect on the arrays.
@@ -370,7 +370,7 @@ def render(
         "background": None if background is None else _as_background(background),
         "filter": as_text(filter, "filter"),
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
-        "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
+        "max_depth": as_integer(max_depth, "max_depth", 1, 65536),
         "bsdf": bsdf,
         "guiding": bool(guiding),
         "ground": _ground_arguments(ground, method),

@@ -271,6 +271,7 @@ def test_wrong_arguments():
         ({"spp": -1}, "spp must be from 1"),
         ({"seed": -1}, "seed must be from 0"),
         ({"max_depth": 0}, "max_depth must be from 1"),
+        ({"max_depth": 65537}, "max_depth must be from 1 to 65536"),
         ({"threads": -1}, "threads must be from 0"),
         ({"threads": 1025}, "threads must be from 0 to 1024"),
         ({"background": (1, 2)}, "background must have 3"),

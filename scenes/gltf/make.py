@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the glTF scenes of this folder: cube.glb, knot.glb and textures.glb, and those of lit.py.
 
-knot.glb is a (2, 3) torus knot of 8 x 96 quadrilaterals in four colours over a floor. textures.glb has four rectangles
-before an orthographic camera: a repeated texture magnified, another minified by mip maps, a mask before grey, and one that
+knot.glb is a (2, 3) torus knot of 8 x 96 quadrilaterals in four colors over a floor. textures.glb has four rectangles
+before an orthographic camera: a repeated texture magnified, another minified by mip maps, a mask before gray, and one that
 leans back, so that its footprints are long.
 """
 

@@ -61,7 +61,7 @@ inline bool is_used(const TriangleBlock& block, std::size_t slot) {
 
 }  // namespace
 
-/// The triangles of a small tree, each once.
+/// The triangles of a small tree, or the large ones of another tree, each once.
 struct FewTriangles {
   static constexpr int kMost = 128;
 

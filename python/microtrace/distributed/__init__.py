@@ -1,7 +1,7 @@
 """Renders on the workers of a Dask cluster. The results have the bytes of one run on one machine.
 
-Install it by `pip install 'microtrace[distributed]'`, with the same version of microtrace on the
-client and on all workers.
+Install it by `pip install '.[distributed]'` in a clone of the repository, with the same version of
+microtrace on the client and on all workers.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ try:
 except ImportError as _error:
     raise ImportError(
         f"microtrace.distributed needs the package {_error.name}; "
-        "install it by pip install 'microtrace[distributed]'",
+        "install it by pip install '.[distributed]' in a clone of microtrace's repository",
         name=_error.name,
     ) from _error
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Refits a tree to new positions of its primitives, which is several times faster than a build.
+/// Refits a tree to new positions of its primitives, which takes about half of the time of a build.
 /// After I. Wald, S. Boulos, P. Shirley, Ray tracing deformable scenes using dynamic bounding
 /// volume hierarchies, 2007, section 3.
 

@@ -29,8 +29,8 @@ constexpr std::array kCompareOptions{
                }},
     Option{.names = "-o,--output",
            .metavar = "FILE",
-           .help = "write a picture of the absolute differences, which 8-bit formats show "
-                   "eightfold",
+           .help = "write a picture of the absolute differences; 8-bit formats show eight times "
+                   "the difference",
            .samples = Samples::keep,
            .completion = Completion::files,
            .set = [](Arguments& a, const OptionValue& value) { a.output = value.text; }},

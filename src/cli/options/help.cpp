@@ -122,6 +122,7 @@ std::string line_of(const Option& option) {
   line += line.size() + 2 > kLeft ? '\n' + std::string(kLeft, ' ')
                                   : std::string(kLeft - line.size(), ' ');
   std::string text(option.help);
+  if (!option.needs.empty()) text.append("; needs ").append(option.needs);
   if (!option.default_value.empty()) text.append(" [").append(option.default_value).append("]");
   return line + wrapped(text) + '\n';
 }

@@ -112,7 +112,7 @@ constexpr std::array kCheckpointOptions{
            .metavar = "NAME",
            .help = "quality of a path-traced picture: draft (--spp 16), good (--spp 256 "
                    "--target-error 0.03) or final (--spp 4096 --target-error 0.01); shards take "
-                   "only the samples; --spp and --target-error replace its values",
+                   "only the samples; --spp and --target-error override its values",
            .samples = Samples::change,
            .words = quality_names,
            .set = [](Arguments& a,

@@ -130,8 +130,8 @@ struct LightNodes {
   /// is the unit normal at p on either side. The result is positive unless no light arrives.
   [[nodiscard]] F importance(const V& p, const V& n) const {
     const F zero{}, one = all<N>(1), least = all<N>(LightTreeSpace::kLeast);
-    const V to_light = p - center;
-    const F square = dot(to_light, to_light), radius_square = radius * radius;
+    const V from_light = p - center;
+    const F square = dot(from_light, from_light), radius_square = radius * radius;
     const auto is_inside = square <= radius_square;
     const F inverse = 1 / larger_of(square, radius_square);
     // The angle subtended by the bounding sphere. The factor of this and the following angles is
@@ -143,10 +143,10 @@ struct LightNodes {
       const auto is_within = (rest.sine <= 0) & (rest.cosine >= 0);
       return is_inside | is_within ? one : larger_of(F(rest.cosine * inverse), zero);
     };
-    F cosines = least_cosine(LightAngle<N>::of(magnitude(F(dot(to_light, n))), square));
+    F cosines = least_cosine(LightAngle<N>::of(magnitude(F(dot(from_light, n))), square));
     auto is_reached = cosines > 0;
     if (!is_everywhere()) {
-      const F along = dot(axis, to_light);
+      const F along = dot(axis, from_light);
       const auto to_point = LightAngle<N>::of(is_two_sided != 0 ? magnitude(along) : along, square);
       const LightAngle<N> beyond = to_point - LightAngle<N>{cos_o, sin_o};
       const auto is_within = (beyond.sine <= 0) & ((beyond.cosine >= 0) | (cos_o < 0));
