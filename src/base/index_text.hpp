@@ -9,9 +9,8 @@
 
 namespace microtrace {
 
-/// Returns the number, if the text consists of decimal digits only, without leading zeros.
+/// Returns the number, if the text consists of decimal digits only.
 [[nodiscard]] inline std::optional<std::size_t> index_in(std::string_view text) {
-  if (text.size() > 1 && text.starts_with('0')) return std::nullopt;
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;

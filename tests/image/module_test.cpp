@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <span>
 #include <string>
 #include <sys/wait.h>
@@ -64,20 +65,40 @@ TEST(Module, ExrStoresTheFloatsUnchanged) {
 TEST(Module, TwoRunsGiveTheSameBytes) {
   const Folder folder;
   const auto names = {"png", "exr", "tif", "jpg", "webp", "hdr"};
-  for (const char* ending : names) save_image(gradient(), folder / (std::string("a.") + ending));
+  // .hdr can't hold negative numbers.
+  Film film = gradient();
+  for (std::uint32_t y = 0; y < film.size().height; ++y) film.at(0, y).x = film.at(1, y).x = 0;
+  for (const char* ending : names) save_image(film, folder / (std::string("a.") + ending));
   // Waits long enough to change a stored time.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   for (const char* ending : names) {
-    save_image(gradient(), folder / (std::string("b.") + ending));
+    save_image(film, folder / (std::string("b.") + ending));
     EXPECT_EQ(read_bytes(folder / (std::string("a.") + ending)),
               read_bytes(folder / (std::string("b.") + ending)))
         << ending;
   }
 }
 
+TEST(Module, HdrIsRefusedForNumbersThatItCannotHold) {
+  const Folder folder;
+  for (const float number : {-0.5F, std::numeric_limits<float>::infinity()}) {
+    Film film({.width = 5, .height = 4});
+    save_image(film, folder / "right.hdr");
+    film.at(3, 2).y = number;
+    try {
+      save_image(film, folder / "wrong.hdr");
+      ADD_FAILURE() << number;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+    }
+    save_image(film, folder / "right.exr");
+  }
+  EXPECT_EQ(folder.entries(), 2U);
+}
+
 TEST(Module, UnknownExtensionsAreUsageErrors) {
   const Folder folder;
-  for (const char* name : {"a.xyz", "a.null", "a", "a."}) {
+  for (const char* name : {"a.xyz", "a.null", "a.pgm", "a.pbm", "a", "a."}) {
     try {
       save_image(gradient(), folder / name);
       ADD_FAILURE() << name;

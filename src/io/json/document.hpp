@@ -68,6 +68,10 @@ class JsonDocument {
 /// Returns the unescaped reference tokens of a JSON pointer. Nothing if the pointer is malformed.
 [[nodiscard]] std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer);
 
+/// Returns the index of an array's item that a reference token names. Nothing unless it consists of
+/// digits without leading zeros (RFC 6901, section 4).
+[[nodiscard]] std::optional<std::size_t> array_index(std::string_view token);
+
 /// The value that a JSON pointer names, or null.
 [[nodiscard]] const JsonValue* resolve(const JsonValue& root, std::string_view pointer);
 [[nodiscard]] JsonValue* resolve(JsonValue& root, std::string_view pointer);

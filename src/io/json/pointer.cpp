@@ -25,7 +25,7 @@ std::optional<std::string> unescaped(std::string_view token) {
 template <typename Value>
 Value* step(Value& value, const std::string& token) {
   if (value.kind() != JsonValue::Kind::array) return value.find(token);
-  const std::optional<std::size_t> index = index_in(token);
+  const std::optional<std::size_t> index = array_index(token);
   return index ? value.find(*index) : nullptr;
 }
 
@@ -72,6 +72,11 @@ std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer)
     pointer = rest.substr(std::min(rest.find('/'), rest.size()));
   }
   return tokens;
+}
+
+std::optional<std::size_t> array_index(std::string_view token) {
+  const bool has_leading_zero = token.size() > 1 && token.starts_with('0');
+  return has_leading_zero ? std::nullopt : index_in(token);
 }
 
 const JsonValue* resolve(const JsonValue& root, std::string_view pointer) {

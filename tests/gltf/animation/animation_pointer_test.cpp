@@ -327,7 +327,8 @@ TEST(GltfAnimationPointer, PointersToNothingGiveWarnings) {
         "/materials/0/pbrMetallicRoughness", "/materials/0/pbrMetallicRoughness/baseColorFactor/0",
         "/materials/alphaCutoff", "/materials/0/extensions", "/cameras/0/perspective/yfov",
         "/nodes/0/extensions/KHR_node_visibility/visible", "/asset/version", "/accessors/0/count",
-        "/extensions/KHR_lights_punctual/lights/0/color", "/nodes/0/matrix", "//", "materials"}) {
+        "/extensions/KHR_lights_punctual/lights/0/color", "/nodes/0/matrix", "//", "materials",
+        "/nodes/00/translation"}) {
     AssetBuilder asset = cube();
     point(asset, pointer, "SCALAR", {0, 1});
     const LoadedScene loaded = load(asset, {.time = 1});

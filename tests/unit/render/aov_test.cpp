@@ -1,5 +1,6 @@
 #include <microtrace/aov.hpp>
 #include <microtrace/error.hpp>
+#include <microtrace/io.hpp>
 #include <microtrace/render.hpp>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -54,6 +56,28 @@ Scene scene_of(std::vector<Shape> shapes) {
     scene.objects.push_back(
         {.name = std::to_string(scene.objects.size()), .shape = std::move(shape)});
   return scene;
+}
+
+TEST(AovIntegrator, GivesEachInstanceItsOwnColor) {
+  constexpr ImageSize kGrid{.width = 200, .height = 100};
+  Scene scene;
+  for (std::uint32_t y = 0; y < kGrid.height; ++y) {
+    for (std::uint32_t x = 0; x < kGrid.width; ++x) {
+      const Vec3 corner(x, y, 0);
+      scene.objects.push_back({.name = "",
+                               .shape = Triangle{corner, corner + Vec3(2, 0, 0) - Vec3(0.1F),
+                                                 corner + Vec3(0, 2, 0) - Vec3(0.1F)}});
+    }
+  }
+  const OrthographicCamera camera{.pose = {.position = {100, 50, 5}, .direction = {0, 0, -1}},
+                                  .height = 100};
+  const AovIntegrator colors(Aov::id);
+  const std::string ppm = encode_ppm(render(scene, camera, kGrid, {.integrator = &colors}));
+  std::set<std::string> seen;
+  for (std::size_t i = ppm.size() - std::size_t{3} * kGrid.width * kGrid.height; i < ppm.size();
+       i += 3)
+    seen.insert(ppm.substr(i, 3));
+  EXPECT_EQ(seen.size(), std::size_t{kGrid.width} * kGrid.height);
 }
 
 DVec3 direction_to(std::size_t pixel, const Camera& camera) {

@@ -1,7 +1,5 @@
 #include "io/gltf/check/animation_pointer.hpp"
 
-#include "io/gltf/document/index_text.hpp"
-
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -14,7 +12,7 @@ std::string why_no_pointer(const Asset& asset, std::string_view text) {
   const JsonValue* value = asset.root().value;
   for (std::size_t i = 0; i < tokens->size(); ++i) {
     if (value->kind() == JsonValue::Kind::array) {
-      const std::optional<std::size_t> index = index_in((*tokens)[i]);
+      const std::optional<std::size_t> index = array_index((*tokens)[i]);
       if (!index || *index >= value->items().size()) {
         return "points to item " + (*tokens)[i] + " of an array that has " +
                std::to_string(value->items().size());
