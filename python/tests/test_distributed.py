@@ -242,4 +242,4 @@ def test_dask_is_optional():
     subprocess.run([sys.executable, "-c", code], check=True)
     code = "import sys; sys.modules['distributed'] = None; import microtrace.distributed"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert "pip install 'microtrace[distributed]'" in result.stderr
+    assert "pip install '.[distributed]'" in result.stderr
