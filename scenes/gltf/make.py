@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the glTF scenes of this folder: cube.glb, knot.glb and textures.glb, and those of lit.py.
+"""Writes the glTF scenes of this folder: cube.glb, knot.glb and textures.glb, and those of lit.py and placed.py.
 
 knot.glb is a (2, 3) torus knot of 8 x 96 quadrilaterals in four colors over a floor. textures.glb has four rectangles
 before an orthographic camera: a repeated texture magnified, another minified by mip maps, a mask before gray, and one that
@@ -10,6 +10,7 @@ import math
 import pathlib
 
 import lit
+import placed
 from asset import Asset, cross, png, subtract, unit
 
 MATERIALS = {
@@ -126,6 +127,7 @@ def main():
     textures().write(folder / "textures.glb")
     for name, make in lit.SCENES.items():
         make().write(folder / f"{name}.glb")
+    placed.instances().write(folder / "instances.glb")
     (folder.parent / "sky.exr").write_bytes(lit.sky())
 
 
