@@ -59,10 +59,8 @@ void RayStream::ask_outside() {
   if (target_.outside.empty()) return;
   for (std::size_t i = 0; i < count(); ++i) {
     if (!is_suited(i)) continue;
-    const Ray own = ray(i);
-    const HitResolver resolver(target_.primitives, own);
-    ClosestSoFar best = no_hit(own);
-    for (const PrimitiveId id : target_.outside) resolver.consider(id, best);
+    ClosestSoFar best = no_hit(ray(i));
+    for (const PrimitiveId id : target_.outside) consider(i, id, best);
     stream_.best_lo[i] = best.lo;
     stream_.best_hi[i] = best.hi;
     stream_.best_id[i] = best.id;

@@ -372,6 +372,29 @@ TEST(RefitTree, IsNotMadeWhereATreeOfOtherPrimitivesWouldBe) {
   EXPECT_FALSE(refits([](Scene& s) { std::get<Triangle>(s.objects[3].shape) = {{}, {1, 0, 0}}; }));
 }
 
+// As the trees of pictures with points or line segments, which are triangles that are empty where
+// they are invisible.
+TEST(RefitTree, OfPrimitivesThatNoLongerExistIsBuiltAnew) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  for (const bool are_triangles : {true, false}) {
+    const auto shape = [&](float x) -> Shape {
+      if (are_triangles) return Triangle{{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}};
+      return Sphere{{x + 0.25F, 0.25F, 0}, 0.2F};
+    };
+    std::vector<Shape> shapes(100, shape(kNaN)), later;
+    for (int i = 0; i < 40; ++i) later.push_back(shape(2 * static_cast<float>(i)));
+    shapes.insert(shapes.end(), later.begin(), later.end());
+    const Scene before = scene_of(shapes), after = scene_of(later);
+    const Bvh previous(before), bvh(after, {.previous = previous.tree()});
+    for (int i = 0; i < 40; ++i) {
+      const auto hit =
+          bvh.intersect({.o = {2 * static_cast<float>(i) + 0.25F, 0.25F, 1}, .d = {0, 0, -1}});
+      ASSERT_TRUE(hit.has_value());
+      EXPECT_EQ(hit->id, static_cast<PrimitiveId>(i));
+    }
+  }
+}
+
 TEST(RefitTree, OfTrianglesThatMoveApartIsBuiltAnew) {
   const Mesh sphere = generated::displaced_sphere(2000);
   Mesh apart;  // each triangle has vertices of its own, at the positions of its neighbors' vertices

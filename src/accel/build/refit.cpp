@@ -48,6 +48,9 @@ class Refitter {
   }
 
  private:
+  // The scene of the previous tree may have had more primitives, of which some were empty.
+  [[nodiscard]] bool exists(PrimitiveId id) const { return id < primitives_.count(); }
+
   bool fit_blocks(WideNode& node, std::size_t i) {
     const auto [begin, end] = entries_of(node.child[i]);
     Box box;
@@ -57,6 +60,7 @@ class Refitter {
       TriangleBlock& block = to_.blocks[k];
       BlockFiller filler(block);
       for (std::size_t slot = 0; slot < kWidth && is_used(old, slot); ++slot) {
+        if (!exists(old.id[slot])) return false;
         const std::optional<Triangle> triangle = primitives_.triangle(old.id[slot]);
         if (!triangle || is_empty(*triangle)) return false;
         const Box own = box_of(*triangle);
@@ -74,6 +78,7 @@ class Refitter {
     const auto [begin, end] = entries_of(node.child[i]);
     Box box;
     for (std::size_t k = begin; k < end; ++k) {
+      if (!exists(to_.others[k])) return false;
       const bool fits = primitives_.visit(to_.others[k], [&]<class AnyShape>(const AnyShape& s) {
         if constexpr (std::is_same_v<AnyShape, Plane> || std::is_same_v<AnyShape, Quadric>) {
           return false;

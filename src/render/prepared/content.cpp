@@ -84,12 +84,13 @@ std::optional<PreparedScene::Content::Recentered> PreparedScene::Content::recent
   const std::scoped_lock lock(moved_mutex_);
   if (by != moved_by_) {
     moved_.reset();
-    moved_by_ = by;
+    moved_by_ = DVec3(0);  // in case that something below throws
     MemoryAccount account(memory_.budget());
     account.take(memory_of(*scene_, PlacedMeshes::copied), "the scene translated to the origin");
     if (std::optional<Scene> scene = moved(*scene_, by))
       moved_ = std::make_shared<const Content>(std::make_shared<const Scene>(*std::move(scene)),
                                                options_, tables_, std::move(account));
+    moved_by_ = by;
   }
   if (!moved_) return std::nullopt;
   return Recentered{.content = moved_, .camera = moved(camera, by)};

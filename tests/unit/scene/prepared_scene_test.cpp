@@ -1,11 +1,13 @@
 // Checks that a prepared scene gives the same pictures and query results as the scene itself.
 
+#include "base/memory_account.hpp"
 #include "render/prepared/content.hpp"
 #include "support/cases/generated_meshes.hpp"
 #include "support/pictures.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/framing.hpp>
+#include <microtrace/io.hpp>
 #include <microtrace/path.hpp>
 #include <microtrace/prepared_scene.hpp>
 #include <microtrace/render.hpp>
@@ -170,6 +172,36 @@ TEST(PreparedScene, ReleasesTheLastPoseIfThereIsNoRoomForBoth) {
       tables = PreparedScene(scene, {.memory = &tight, .tables = std::move(tables)}).tables();
   }
   EXPECT_NO_THROW(tight.take(tight.limit(), "all")) << "trees without scenes give all back";
+}
+
+// A picture that fails for lack of memory must not change those that follow.
+TEST(PreparedScene, TranslatesADistantSceneAfterAFailure) {
+  constexpr float kFar = 0x1p20F;
+  Mesh mesh = generated::displaced_sphere(2000);
+  for (Vec3& p : mesh.positions.edit()) p = 4.0F * p + Vec3(kFar);
+  Scene scene;
+  scene.objects.push_back({.name = "", .shape = mesh});
+  PerspectiveCamera camera;
+  camera.pose = {.position = DVec3(kFar) + DVec3(0, 0, 20), .direction = {0, 0, -1}};
+  const PathIntegrator light;
+  const auto draw = [&](const PreparedScene& prepared) {
+    return encode_ppm(render(prepared, camera, {.width = 32, .height = 24},
+                             {.integrator = &light, .samples = 4}));
+  };
+  const std::string expected = draw(PreparedScene(scene));
+  MemoryBudget budget(64 << 20);
+  const PreparedScene prepared(scene, {.memory = &budget});
+  {
+    MemoryAccount other(&budget);
+    for (std::uint64_t size = 64 << 20; size >= 1024; size /= 2) {
+      try {
+        while (true) other.take(size, "something else");
+      } catch (const Error&) {
+      }
+    }
+    EXPECT_THROW(draw(prepared), Error);
+  }
+  EXPECT_EQ(draw(prepared), expected);
 }
 
 TEST(PreparedScene, TakesAnotherEnvironment) {
