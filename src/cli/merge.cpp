@@ -77,9 +77,10 @@ bool merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
                               merged = sequence.checkpoint(index);
   Checkpoint all = load_checkpoint(files.front());
   if (!merged.empty()) check_checkpoint_path(merged);
-  if (!picture.empty()) check_image_path(picture, contents_of(all, denoiser != nullptr));
+  if (!picture.empty()) check_image_path(picture, {.alpha = all.has_alpha});
   check_outputs_differ({{"--output", picture}, {"--checkpoint", merged}});
   add_files(all, std::span(files).subspan(1), memory, true);
+  if (!picture.empty()) check_image_path(picture, contents_of(all, denoiser != nullptr));
   check_no_input_is_overwritten(inputs, {{"--output", picture}, {"--checkpoint", merged}});
   const std::string missing = missing_samples(all);
   const std::string place = picture.empty() ? merged.string() : picture.string();

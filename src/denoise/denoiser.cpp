@@ -38,13 +38,15 @@ bool is_channel_of(const Channel& channel, SampledAov aov) {
   return channel.name.starts_with(std::string(name_of(aov)) + ".");
 }
 
-/// Returns the three channels of a feature as vectors, row by row.
+/// Returns the three channels of a feature as vectors, row by row. Merged checkpoints may have them
+/// in any order.
 std::vector<Vec3> vectors_of(const Film& film, SampledAov aov) {
-  const auto first =
-      std::ranges::find_if(film.channels, [&](const Channel& c) { return is_channel_of(c, aov); });
+  const std::string_view letters = aov == SampledAov::denoise_normal ? "XYZ" : "RGB";
   std::vector<Vec3> vectors(pixels_of(film));
   for (glm::length_t c = 0; c < 3; ++c) {
-    const auto& values = std::get<std::vector<float>>(first[c].values);
+    const std::string name = std::string(name_of(aov)) + '.' + letters[static_cast<std::size_t>(c)];
+    const auto channel = std::ranges::find(film.channels, name, &Channel::name);
+    const auto& values = std::get<std::vector<float>>(channel->values);
     for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i][c] = values[i];
   }
   return vectors;

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <optional>
+#include <poll.h>
 #include <random>
 #include <string>
 #include <sys/stat.h>
@@ -169,6 +170,10 @@ void AtomicFile::write(std::string_view bytes) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written < 0 && errno == EAGAIN) {
+      // Another program made the pipe non-blocking for all who share it.
+      pollfd pipe{.fd = descriptor_, .events = POLLOUT, .revents = 0};
+      static_cast<void>(::poll(&pipe, 1, -1));
     } else if (written == 0 || errno != EINTR) {
       const int error = written == 0 ? EIO : errno;
       fail(error, remedy_of(error));

@@ -234,6 +234,20 @@ class Dataset(ProgramTest):
         manifest.write_bytes(content)
         self.verify()
 
+    def test_damaged_annotations_of_other_shards_are_named(self):
+        options = ["--views", "orbit:4", *SMALL, "--formats", "coco"]
+        damages = {"quote": lambda line: line.replace(b'"', b"x", 1), "tab": lambda line: line.replace(b"\t", b"", 1)}
+        for name, damage in damages.items():
+            for shard in ("1/2", "2/2"):
+                self.dataset(*options, "--shard", shard, output=name)
+            folder = self.folder / name
+            (part,) = (folder / "annotations").glob("000002*")
+            lines = part.read_bytes().split(b"\n")
+            part.write_bytes(b"\n".join([lines[0], damage(lines[1]), *lines[2:]]))
+            (first,) = (folder / "annotations").glob("000000*")
+            first.unlink()
+            self.assertIn("annotations of view 2 are damaged", self.dataset(*options, "--shard", "1/2", output=name, code=5))
+
     def test_one_of_two_data_sets_gets_a_new_folder(self):
         for _ in range(10):
             processes = [subprocess.Popen([PROGRAM, "dataset", SCENE, "-o", self.folder / "new", "--views", "orbit:2",

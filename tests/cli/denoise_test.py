@@ -84,6 +84,23 @@ class Denoise(ProgramTest):
             self.draw("merge", "bare1", "bare2", *options, "-o", "merged.png", "-q", scene=None)
             self.assertEqual(self.bytes_of("merged.png"), self.bytes_of("whole.png"))
 
+    def test_parts_with_other_channels_keep_the_order_of_colors(self):
+        colored = ["--integrator", "path", "--env", "0.9,0.4,0.1", "--background", "env", "--size", "24x16", "--spp", "6"]
+        self.draw(*colored, "--denoise", "-o", "whole.png", "-q")
+        self.draw(*colored, "--denoise", "--shard", "1/2", "--checkpoint", "1")
+        self.draw(*colored, "--denoise", "--aov", "depth", "--shard", "2/2", "--checkpoint", "2")
+        self.draw(*colored, "--shard", "2/2", "--checkpoint", "plain2")
+        for parts in ("12", "21", ["1", "plain2"], ["plain2", "1"]):
+            self.draw("merge", *parts, "--denoise", "-o", "merged.exr", "-q", scene=None)
+            self.draw("merge", *parts, "--checkpoint", "all", "-q", scene=None)
+            self.draw("merge", "all", "--denoise", "-o", "again.exr", "-q", scene=None)
+            self.assertEqual(self.bytes_of("again.exr"), self.bytes_of("merged.exr"), parts)
+            (self.folder / "all").unlink()
+            merged, whole = Exr(self.folder / "merged.exr"), "whole.exr"
+            self.draw(*colored, "--denoise", "-o", whole, "-q")
+            for c in "RGB":
+                self.assertEqual(merged.channels[c], Exr(self.folder / whole).channels[c], parts)
+
     def test_noisy_features(self):
         # The library refuses features that were filtered for a picture whose features have no noise, and vice versa.
         for option in (["--aperture", "0.1", "--focus", "3"], ["--ground"]):

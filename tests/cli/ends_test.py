@@ -83,6 +83,17 @@ class Ends(ProgramTest):
 
     # Standard output
 
+    def test_pipes_that_another_program_made_non_blocking(self):
+        reader, writer = os.pipe()
+        os.set_blocking(writer, False)
+        scene = SOURCE / "scenes/perspective1.json"
+        with subprocess.Popen([PROGRAM, scene, "-q", "-o", "-"], stdout=writer, stderr=subprocess.PIPE) as process:
+            os.close(writer)
+            time.sleep(0.2)  # The pipe becomes full.
+            with open(reader, "rb") as pipe:
+                self.assertEqual(len(pipe.read()), len(b"P6\n640 480\n255\n") + 3 * 640 * 480)
+            self.assertEqual(process.wait(), 0, process.stderr.read())
+
     def test_full_standard_output_is_an_error(self):
         for arguments in [[SCENE, "--validate"], ["--help"], ["--version"], ["merge", "--help"]]:
             with open("/dev/full", "w") as full:

@@ -147,6 +147,14 @@ TEST(DecodeImage, WebpLosslessAndLossy) {
   EXPECT_FALSE(decode_image(kLosslessWebp.substr(0, 50)).image);
 }
 
+TEST(DecodeImage, TheSmallestWebpIsWhole) {
+  const std::string tiny = gltf::decode_base64("UklGRhQAAABXRUJQVlA4TAgAAAAvA8AAEIiICA==").value();
+  ASSERT_EQ(tiny.size(), 28U);
+  const Image image = decode(tiny);
+  expect_size(image, 4, 4, 4);
+  EXPECT_THAT(std::get<Bytes>(image.samples), testing::Each(0));
+}
+
 // libwebp would decode the remaining bytes as a picture of arbitrary size that has no container.
 TEST(DecodeImage, WebpWithoutPictureIsRefusedBeforeAllocation) {
   const auto made = [](std::string_view kind) {

@@ -603,6 +603,43 @@ class Pictures(unittest.TestCase):
 
 
 class Ends(unittest.TestCase):
+    def test_the_browser_outlives_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            browser, report = Path(folder, "browser"), Path(folder, "report")
+            browser.write_text(f"#!/bin/sh\n(ps -o sid= -p $$; ls -l /proc/$$/fd; grep SigIgn /proc/$$/status) > {report}.new\n"
+                               f"mv {report}.new {report}\nsleep 60\n")
+            browser.chmod(0o755)
+            environment = dict(os.environ, BROWSER=str(browser), ASAN_OPTIONS="detect_leaks=0")
+            with subprocess.Popen([PROGRAM, "view", SCENES / "sphere.json"], env=environment, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, start_new_session=True) as process:
+                wait_until(report.exists)
+                process.terminate()
+                self.assertEqual(process.wait(timeout=10), 0)
+            session, *rest = report.read_text().split("\n")
+            os.kill(int(session), 15)  # still runs, in a session of its own
+            self.assertNotEqual(int(session), process.pid)
+            self.assertNotIn("socket:", "\n".join(rest))
+            ignored = next(int(line.split()[1], 16) for line in rest if line.startswith("SigIgn"))
+            self.assertEqual(ignored & 0x7FFFFFFF, 0)  # without those of the C library
+
+    def test_too_many_open_files(self):
+        limited = 'ulimit -n 24; exec "$0" "$@"'
+        with subprocess.Popen(["bash", "-c", limited, PROGRAM, "view", "--no-browser", SCENES / "sphere.json"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            port = int(process.stdout.readline().split("/")[2].split(":")[1])
+            waiting = [socket.create_connection(("127.0.0.1", port)) for _ in range(40)]
+
+            def seconds():
+                fields = Path(f"/proc/{process.pid}/stat").read_text().split()
+                return (int(fields[13]) + int(fields[14])) / os.sysconf("SC_CLK_TCK")
+            begin = seconds()
+            time.sleep(1)
+            self.assertLess(seconds() - begin, 0.5)
+            for connection in waiting:
+                connection.close()
+            process.terminate()
+            self.assertEqual(process.wait(timeout=10), 0)
+
     def test_page_ends_the_program(self):
         with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:
             # While a long picture is being drawn and awaited.

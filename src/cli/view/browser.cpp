@@ -1,6 +1,7 @@
 #include "cli/view/browser.hpp"
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <spawn.h>
@@ -28,10 +29,20 @@ void open_browser(const std::string& address) {
   // Messages of browsers would mix with those of the program.
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     ::posix_spawn_file_actions_addopen(&actions, descriptor, "/dev/null", O_RDWR, 0);
-  std::array<char*, 3> words{program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  static_cast<void>(
-      ::posix_spawnp(&child, program.c_str(), &actions, nullptr, words.data(), environ));
+  posix_spawnattr_t attributes;
+  if (::posix_spawnattr_init(&attributes) == 0) {
+    // Otherwise, Ctrl-C would also end the browser, and it would ignore the signals that this
+    // program ignores.
+    sigset_t all;
+    ::sigfillset(&all);
+    ::posix_spawnattr_setsigdefault(&attributes, &all);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF);
+    std::array<char*, 3> words{program.data(), argument.data(), nullptr};
+    pid_t child = 0;
+    static_cast<void>(
+        ::posix_spawnp(&child, program.c_str(), &actions, &attributes, words.data(), environ));
+    ::posix_spawnattr_destroy(&attributes);
+  }
   ::posix_spawn_file_actions_destroy(&actions);
 }
 

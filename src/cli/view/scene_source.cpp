@@ -20,8 +20,8 @@ ShownScene with_extent(ShownScene shown) {
   return shown;
 }
 
-SceneSource::SceneSource(const Arguments& arguments)
-    : memory_(arguments.memory_limit.value_or(default_memory_limit())),
+SceneSource::SceneSource(const Arguments& arguments, MemoryBudget& memory)
+    : memory_(memory),
       options_(arguments.load),
       path_(arguments.scene),
       threads_(arguments.threads != 0 ? arguments.threads : default_threads()),
@@ -31,8 +31,9 @@ SceneSource::SceneSource(const Arguments& arguments)
   options_.needs_regular_file = true;  // a pipe that replaces the file would block the page
 }
 
-SceneSource::SceneSource(const Arguments& arguments, std::shared_ptr<const ShownScene> scene)
-    : SceneSource(arguments) {
+SceneSource::SceneSource(const Arguments& arguments, MemoryBudget& memory,
+                         std::shared_ptr<const ShownScene> scene)
+    : SceneSource(arguments, memory) {
   fixed_ = std::move(scene);
   if (fixed_) files_.clear();
 }

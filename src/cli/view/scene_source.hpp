@@ -39,9 +39,11 @@ struct ShownScene {
 class SceneSource {
  public:
   /// Reads the scene file of the arguments when it is needed.
-  explicit SceneSource(const Arguments& arguments);
+  /// `memory` must outlive this object.
+  SceneSource(const Arguments& arguments, MemoryBudget& memory);
   /// Always returns the given scene, unless it is null.
-  SceneSource(const Arguments& arguments, std::shared_ptr<const ShownScene> scene);
+  SceneSource(const Arguments& arguments, MemoryBudget& memory,
+              std::shared_ptr<const ShownScene> scene);
 
   /// Returns the scene with the variant and at the time that the arguments select. Throws Error.
   [[nodiscard]] std::shared_ptr<const ShownScene> get(const LoadOptions& wanted);
@@ -75,7 +77,7 @@ class SceneSource {
   void forget_stale();
   void note_files(const std::map<std::string, FileState>& states);
 
-  MemoryBudget memory_;
+  MemoryBudget& memory_;
   LoadOptions options_;
   std::string path_;
   unsigned threads_;

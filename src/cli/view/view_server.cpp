@@ -72,6 +72,7 @@ io::HttpResponse response_of(const Work& work) {
 
 ViewServer::ViewServer(const Arguments& arguments, std::shared_ptr<const ShownScene> scene)
     : arguments_(arguments),
+      memory_(arguments.memory_limit.value_or(default_memory_limit())),
       token_(random_token()),
       http_({.port = arguments.view.port,
              .token = token_,
@@ -79,11 +80,11 @@ ViewServer::ViewServer(const Arguments& arguments, std::shared_ptr<const ShownSc
             [this](const io::HttpRequest& request, const io::HttpReply& reply) {
               handle(request, reply);
             }) {
-  sources_.push_back(std::make_unique<SceneSource>(arguments, std::move(scene)));
+  sources_.push_back(std::make_unique<SceneSource>(arguments, memory_, std::move(scene)));
   if (!arguments.view.other_scene.empty()) {
     Arguments other = arguments;
     other.scene = arguments.view.other_scene;
-    sources_.push_back(std::make_unique<SceneSource>(other));
+    sources_.push_back(std::make_unique<SceneSource>(other, memory_));
   }
   for (const auto& source : sources_) watches_.emplace_back().watch(source->files());
 }

@@ -75,6 +75,7 @@ class ViewServer {
   void tick();
 
   Arguments arguments_;
+  MemoryBudget memory_;                                ///< of all scenes
   std::vector<std::unique_ptr<SceneSource>> sources_;  ///< by number of the scene
   std::string token_;
   std::atomic<bool> is_ending_ = false;

@@ -40,9 +40,13 @@ struct AnnotationLine {
       : category(line.substr(0, line.find(kSeparator))),
         members(line.substr(std::min(category.size() + 1, line.size()))) {}
 
+  /// Throws Error if the line is damaged.
   [[nodiscard]] std::string name() const {
     const io::JsonDocument document(category, "");
     return io::JsonReader(document).string();
+  }
+  [[nodiscard]] bool has_members() const {
+    return members.starts_with('{') && members.find(',') != std::string_view::npos;
   }
   /// Returns the annotation with its ids. The first member is image_id.
   [[nodiscard]] std::string with(std::uint64_t id, std::uint32_t category_id) const {
@@ -53,6 +57,22 @@ struct AnnotationLine {
   }
 };
 
+[[noreturn]] void refuse_part(std::size_t index) {
+  throw Error(ErrorKind::io, "",
+              "the annotations of view " + std::to_string(index) +
+                  " are damaged or incomplete; render this view again");
+}
+
+/// Returns the name of a line's category.
+std::string name_of(const AnnotationLine& line, std::size_t index) {
+  try {
+    if (line.has_members()) return line.name();
+  } catch (const Error&) {
+    refuse_part(index);
+  }
+  refuse_part(index);
+}
+
 /// Returns the lines of a part without the last one.
 std::vector<std::string_view> lines_of(std::string_view part, std::size_t index) {
   std::vector<std::string_view> lines;
@@ -61,9 +81,7 @@ std::vector<std::string_view> lines_of(std::string_view part, std::size_t index)
     part.remove_prefix(end + 1);
   }
   if (lines.size() < 2 || !part.empty() || lines.back() != end_of_part(lines.size() - 2))
-    throw Error(ErrorKind::io, "",
-                "the annotations of view " + std::to_string(index) +
-                    " are incomplete; render this view again");
+    refuse_part(index);
   lines.pop_back();
   return lines;
 }
@@ -141,7 +159,7 @@ void join_coco(Categories categories, std::size_t count,
     const std::vector<std::string_view> lines = lines_of(bytes, i);
     for (std::size_t k = 1; k < lines.size(); ++k) {
       const AnnotationLine line(lines[k]);
-      text.append(separator).append(line.with(++id, categories.number_of(line.name())));
+      text.append(separator).append(line.with(++id, categories.number_of(name_of(line, i))));
       separator = ",\n";
     }
     out(text);

@@ -134,6 +134,8 @@ void HttpServer::run(const std::function<bool()>& goes_on) {
   exchanges_->http.run(exchanges_->server);
   exchanges_->goes_on = nullptr;
   if (exchanges_->thrown) std::rethrow_exception(std::exchange(exchanges_->thrown, nullptr));
+  if (!exchanges_->complaint.empty())
+    throw Error(ErrorKind::internal, "", "the page can't be served: " + exchanges_->complaint);
 }
 
 }  // namespace microtrace::io

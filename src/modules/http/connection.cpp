@@ -183,7 +183,8 @@ void Connection::write(Response response) {
   const bool is_head = is_read && parser_->get().method() == beast::http::verb::head;
   const std::size_t length = response_.body().size();
   if (is_head) response_.body().clear();
-  response_.content_length(length);
+  // RFC 9110, section 8.6: responses without content have no length.
+  if (response_.result() != beast::http::status::no_content) response_.content_length(length);
   stream_.expires_after(kTimeToReceive);
   beast::http::async_write(
       stream_, response_,

@@ -3,6 +3,7 @@
 #include "modules/http/connection.hpp"
 
 #include <chrono>
+#include <fcntl.h>
 #include <memory>
 #include <utility>
 
@@ -11,12 +12,24 @@ namespace microtrace::http {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
+namespace {
+
+/// Keeps a browser that the program starts from inheriting the socket, and with it the port.
+template <class Socket>
+void close_on_exec(Socket& socket) {
+  static_cast<void>(::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC));
+}
+
+}  // namespace
+
 Server::Server(const MicrotraceHttpHost& host)
     : host_(host),
       token_(host.token),
       allowed_host_(host.allowed_host),
       acceptor_(context_, tcp::endpoint(asio::ip::address_v4::loopback(), host.port)),
-      timer_(context_) {
+      timer_(context_),
+      retry_(context_) {
+  close_on_exec(acceptor_);
   accept();
 }
 
@@ -29,9 +42,19 @@ void Server::run() {
 void Server::accept() {
   acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    // Errors, such as too many open files, pass.
-    if (!error && make_room()) std::make_shared<Connection>(*this, std::move(socket))->read();
+    if (error) return accept_later();
+    close_on_exec(socket);
+    if (make_room()) std::make_shared<Connection>(*this, std::move(socket))->read();
     accept();
+  });
+}
+
+void Server::accept_later() {
+  // Errors, such as too many open files, pass, the sooner the fewer connections there are.
+  if (!quiet_.empty()) quiet_.front()->close();
+  retry_.expires_after(std::chrono::milliseconds(100));
+  retry_.async_wait([this](const boost::system::error_code& error) {
+    if (!error) accept();
   });
 }
 

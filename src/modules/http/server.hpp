@@ -42,6 +42,8 @@ class Server {
   static constexpr int kMostConnections = 64;
 
   void accept();
+  /// Accepts again after a moment.
+  void accept_later();
   /// Returns true if another connection is allowed. At the limit, closes the one that has been
   /// quiet for the longest time.
   [[nodiscard]] bool make_room();
@@ -54,7 +56,7 @@ class Server {
   Quiet quiet_;
   boost::asio::io_context context_{1};
   boost::asio::ip::tcp::acceptor acceptor_;
-  boost::asio::steady_timer timer_;
+  boost::asio::steady_timer timer_, retry_;
 };
 
 }  // namespace microtrace::http

@@ -22,7 +22,8 @@ using OIIO::TypeDesc;
 /// fetched at exit.
 std::runtime_error complaint(const std::string& otherwise) {
   const std::string message = OIIO::geterror();
-  return std::runtime_error(message.empty() ? otherwise : message);
+  if (!message.empty()) return std::runtime_error(message);
+  return std::runtime_error(otherwise.empty() ? "it is damaged" : otherwise);
 }
 
 /// Returns the index of the first of the channels red, green and blue, or of the gray channel.
@@ -81,7 +82,7 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   void* samples = sink.begin(sink.context, &colors);
   if (samples == nullptr) throw std::runtime_error("it is too large");
   if (!reader->read_image(0, 0, first, first + count, type_of(colors.number), samples))
-    throw std::runtime_error(reader->geterror());
+    throw complaint(reader->geterror());
   reader->close();
 }
 

@@ -75,8 +75,11 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
 /// Reads a WebP header (RFC 9649, sections 2.5 to 2.7) in one of its three forms: simple lossy,
 /// simple lossless, or extended.
 std::optional<Size> webp_size(std::string_view bytes) {
-  if (bytes.size() < 30) return std::nullopt;
+  if (bytes.size() < 25) return std::nullopt;
   const std::string_view kind = bytes.substr(12, 4);
+  // A whole lossless picture of one color may have 28 bytes.
+  const bool is_whole = kind == "VP8L" && bytes.size() - 20 >= little_endian(bytes, 16, 4);
+  if (bytes.size() < 30 && !is_whole) return std::nullopt;
   if (kind == "VP8 ") {
     return Size{little_endian(bytes, 26, 2) & 0x3FFFU, little_endian(bytes, 28, 2) & 0x3FFFU};
   }
