@@ -6,6 +6,7 @@
 #include "accel/spawn/touching.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -30,10 +31,10 @@ class Neighbors {
 
   /// Adds primitive `id` if it may have a point in the box.
   void add(PrimitiveId id, const Bounds& box) {
-    if (id == id_) return;
+    if (id == id_ || known_.contains(id)) return;
     primitives_.visit(id, [&](const auto& shape) {
       if (build::is_empty(shape) || !is_near(shape, box)) return;
-      if (std::ranges::find(sides_, id, &Side::id) != sides_.end()) return;
+      known_.insert(id);
       if (const auto sign = side_of_witness(shape)) sides_.push_back({.id = id, .sign = *sign});
     });
   }
@@ -134,6 +135,7 @@ class Neighbors {
   // Exact queries about the surface that is hit, created on first use.
   mutable std::optional<exact::TriangleHit> triangle_hit_;
   mutable std::optional<exact::Root> root_;
+  std::unordered_set<PrimitiveId> known_;  // those near the hit
   std::vector<Side> sides_;
 };
 

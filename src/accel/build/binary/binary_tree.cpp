@@ -52,11 +52,11 @@ class Builder {
     std::vector<CollapseCosts> costs(small.size());
     pool_.run(small.size(), [&](std::size_t i) {
       tree_.subtrees[i].begin = small[i].node->begin();
-      Subtree subtree{
-          .references = PageVector<Reference>(kFewReferences),
-          .scratch = PageVector<Reference>(std::max(kFewReferences, small[i].references.size())),
-          .arena = tree_.subtrees[i].nodes,
-          .bins = {}};
+      const std::size_t few = std::min<std::size_t>(kFewReferences, small[i].node->count());
+      Subtree subtree{.references = PageVector<Reference>(few),
+                      .scratch = PageVector<Reference>(std::max(few, small[i].references.size())),
+                      .arena = tree_.subtrees[i].nodes,
+                      .bins = {}};
       costs[i] = build_alone(small[i], subtree);
     });
     auto next = costs.cbegin();
