@@ -2,6 +2,7 @@
 
 #include "accel/build/references/shape_box.hpp"
 #include "accel/resolve/hit_resolver.hpp"
+#include "accel/spawn/box_clearance.hpp"
 #include "accel/spawn/origin_search.hpp"
 #include "accel/spawn/touching.hpp"
 
@@ -62,17 +63,28 @@ class Neighbors {
     int sign;
   };
 
+  /// A box by its center.
+  struct Reach {
+    DVec3 center, radius;
+
+    explicit Reach(const Bounds& box) {
+      const DVec3 lo = box.lo, hi = box.hi;
+      center = 0.5 * lo + 0.5 * hi;
+      radius = glm::max(hi - center, center - lo) * (1 + 0x1p-20);
+    }
+  };
+
   static bool is_near(const Triangle& t, const Bounds& box) {
     const Bounds own{.lo = glm::min(t.a, glm::min(t.b, t.c)),
                      .hi = glm::max(t.a, glm::max(t.b, t.c))};
     if (!overlap(own, box)) return false;
-    const DVec3 lo = box.lo, hi = box.hi, center = 0.5 * lo + 0.5 * hi;
-    const DVec3 reach = glm::max(hi - center, center - lo) * (1 + 0x1p-20);
-    return TriangleSurface(t).certain_sign(center, reach) == 0;  // or else beside the plane
+    const Reach reach(box);
+    return TriangleSurface(t).certain_sign(reach.center, reach.radius) == 0;
   }
   template <class Other>
-  static bool is_near(const Other&, const Bounds&) {
-    return true;
+  static bool is_near(const Other& shape, const Bounds& box) {
+    const Reach reach(box);
+    return !is_filterable(shape) || !clears_box(shape, reach.center, reach.radius);
   }
 
   // Returns true if the segment from the hit to q may meet a surface, given that the segment's ends
