@@ -80,8 +80,8 @@ class Volume(Brief):
 
 @dataclass(eq=False, repr=False)
 class VolumeScatter(Brief):
-    """Scattering in the medium of the volume (KHR_materials_volume_scatter, a draft of 2025). It has
-    no effect if Volume.attenuation_distance is infinite, which is the default."""
+    """Scattering in the medium of the volume (KHR_materials_volume_scatter, a draft of 2025). It
+    has no effect if Volume.attenuation_distance is infinite, which is the default."""
 
     multiscatter_color: Color = (0.0, 0.0, 0.0)  #: color of a thick body, each in [0, 1]
     scatter_anisotropy: float = 0.0  #: mean cosine of scattering angles, in [-1, 1]

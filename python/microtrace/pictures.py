@@ -79,8 +79,8 @@ class Picture(Mapping[str, Array]):
       channels. face_normal faces the viewer, and normal is on the side that the viewer sees.
     - object, primitive, material: uint32; 1 + the index in Scene.objects, the mesh's faces, and
       Scene.materials. The material of objects without one is 0.
-    - variance, samples: float32; the variance of the mean luminance of the samples over the background,
-      and the number of samples.
+    - variance, samples: float32; the variance of the mean luminance of the samples over the
+      background, and the number of samples.
     - denoise_albedo, denoise_normal: float32, 3 channels; means over the samples.
     - emission, noisy: float32, 3 channels; light that arrives without being scattered, and the
       colors before denoising.
@@ -285,7 +285,8 @@ def render(
         size: width and height in pixels. Default: the scene's size.
         spp: samples per pixel. Default: 64 for path tracing, otherwise 1.
         aovs: the arrays to render; see Picture. If they include none of color, variance, samples,
-            emission, noisy and the denoise arrays, no light is computed and rendering takes only milliseconds.
+            emission, noisy and the denoise arrays, no light is computed and rendering takes only
+            milliseconds.
         integrator: "path" for path tracing or "flat" for base colors without lighting. Default: the
             scene's integrator.
         environment: replaces the scene's environment.
@@ -312,7 +313,8 @@ def render(
         exposure: the exposure, in stops, with which 8-bit colors are shown; color itself doesn't
             depend on it. "auto" is the exposure nearest to 0 at which surfaces are neither blown
             out nor black to the first camera; a small picture of 48 pixels is rendered for it.
-            Default: "auto" for path-traced glTF assets, and scenes from arrays that have lights, else 0.
+            Default: "auto" for path-traced glTF assets, and scenes from arrays that have lights,
+            else 0.
         shutter: renders motion blur. Colors, variance and samples show the scenes and cameras of
             the shutter; other arrays show `scene` and `camera`.
         threads: number of threads; 0 means all processors. It has no effect on the arrays.
