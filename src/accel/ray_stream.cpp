@@ -59,8 +59,10 @@ void RayStream::ask_outside() {
   if (target_.outside.empty()) return;
   for (std::size_t i = 0; i < count(); ++i) {
     if (!is_suited(i)) continue;
-    ClosestSoFar best = no_hit(ray(i));
-    for (const PrimitiveId id : target_.outside) consider(i, id, best);
+    const Ray own = ray(i);
+    const HitResolver resolver(target_.primitives, own);
+    ClosestSoFar best = no_hit(own);
+    for (const PrimitiveId id : target_.outside) consider(i, own, resolver, id, best);
     stream_.best_lo[i] = best.lo;
     stream_.best_hi[i] = best.hi;
     stream_.best_id[i] = best.id;
@@ -70,8 +72,12 @@ void RayStream::ask_outside() {
 void RayStream::consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) const {
   if (!is_suited(i)) return;
   const Ray own = ray(i);
+  consider(i, own, HitResolver(target_.primitives, own), id, best);
+}
+
+void RayStream::consider(std::size_t i, const Ray& own, const HitResolver& resolver, PrimitiveId id,
+                         ClosestSoFar& best) const {
   if (meets_open_side(target_.primitives, target_.tree.open, own, id)) return;
-  const HitResolver resolver(target_.primitives, own);
   ClosestSoFar nearer = best;
   resolver.consider(id, nearer);
   if (nearer.id != id || !masked_.lets_pass(first_ + i, own, id)) {

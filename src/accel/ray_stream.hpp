@@ -14,6 +14,8 @@
 
 namespace microtrace {
 
+class HitResolver;
+
 /// Rays in one array per component, and the primitives that they leave as in Bvh::intersect.
 struct RayColumns {
   const float *o[3], *d[3], *t_max;
@@ -125,6 +127,9 @@ class RayStream {
   [[nodiscard]] Ray ray(std::size_t i) const { return rays_.empty() ? columns_[i] : rays_[i]; }
   [[nodiscard]] StreamFallback fallback();
   void consider(std::size_t i, PrimitiveId id, ClosestSoFar& best) const;
+  /// The same for a ray that is suited. `resolver` must be made for it.
+  void consider(std::size_t i, const Ray& own, const HitResolver& resolver, PrimitiveId id,
+                ClosestSoFar& best) const;
   [[nodiscard]] Visible visible(std::size_t i, PrimitiveId id, const HitWeights& at) const;
   [[nodiscard]] bool is_suited(std::size_t i) const {
     return (stream_.suited[i / 64] >> i % 64 & 1U) != 0;
