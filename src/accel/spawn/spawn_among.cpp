@@ -30,11 +30,23 @@ class Neighbors {
         witness_(goes_back ? -ray.d : ray.d),
         point_(ray, KnownHit(primitives, ray, id, Duplicates()).bounds()) {}
 
+  /// A box, also by its center and by its extent from there.
+  struct Place {
+    Bounds box;
+    DVec3 center, radius;
+
+    explicit Place(const Bounds& b) : box(b) {
+      const DVec3 lo = b.lo, hi = b.hi;
+      center = 0.5 * lo + 0.5 * hi;
+      radius = glm::max(hi - center, center - lo) * (1 + 0x1p-20);
+    }
+  };
+
   /// Adds primitive `id` if it may have a point in the box.
-  void add(PrimitiveId id, const Bounds& box) {
+  void add(PrimitiveId id, const Place& place) {
     if (id == id_ || known_.contains(id)) return;
     primitives_.visit(id, [&](const auto& shape) {
-      if (build::is_empty(shape) || !is_near(shape, box)) return;
+      if (build::is_empty(shape) || !is_near(shape, place)) return;
       known_.insert(id);
       if (const auto sign = side_of_witness(shape)) sides_.push_back({.id = id, .sign = *sign});
     });
@@ -63,28 +75,15 @@ class Neighbors {
     int sign;
   };
 
-  /// A box by its center.
-  struct Reach {
-    DVec3 center, radius;
-
-    explicit Reach(const Bounds& box) {
-      const DVec3 lo = box.lo, hi = box.hi;
-      center = 0.5 * lo + 0.5 * hi;
-      radius = glm::max(hi - center, center - lo) * (1 + 0x1p-20);
-    }
-  };
-
-  static bool is_near(const Triangle& t, const Bounds& box) {
+  static bool is_near(const Triangle& t, const Place& place) {
     const Bounds own{.lo = glm::min(t.a, glm::min(t.b, t.c)),
                      .hi = glm::max(t.a, glm::max(t.b, t.c))};
-    if (!overlap(own, box)) return false;
-    const Reach reach(box);
-    return TriangleSurface(t).certain_sign(reach.center, reach.radius) == 0;
+    return overlap(own, place.box) &&
+           TriangleSurface(t).certain_sign(place.center, place.radius) == 0;
   }
   template <class Other>
-  static bool is_near(const Other& shape, const Bounds& box) {
-    const Reach reach(box);
-    return !is_filterable(shape) || !clears_box(shape, reach.center, reach.radius);
+  static bool is_near(const Other& shape, const Place& place) {
+    return !is_filterable(shape) || !clears_box(shape, place.center, place.radius);
   }
 
   // Returns true if the segment from the hit to q may meet a surface, given that the segment's ends
@@ -178,10 +177,10 @@ std::optional<Vec3> search(Surface surface, const Primitives& primitives, const 
   double reach = 0;
   for (int level = 0; level < kLevels; ++level) {
     Vec3 q = unsigned_zeros(DVec3(start->p) + along * (reach / length));
-    const Bounds box = around(start->p, q, 4 * kSteps * unit);
-    const auto add = [&](PrimitiveId other) { neighbors.add(other, box); };
+    const Neighbors::Place place(around(start->p, q, 4 * kSteps * unit));
+    const auto add = [&](PrimitiveId other) { neighbors.add(other, place); };
     std::for_each(outside.begin(), outside.end(), add);
-    if (tree != nullptr) for_each_touching(*tree, box, add);
+    if (tree != nullptr) for_each_touching(*tree, place.box, add);
     for (int step = 0; step <= kSteps && exact::is_finite(q); ++step) {
       if (surface.is_clear(q, direction, start->side) && neighbors.allow(q)) return q;
       start->step.apply(q);
