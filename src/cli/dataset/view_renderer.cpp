@@ -43,6 +43,12 @@ std::span<const Number> values_of(const Film& film, std::string_view name) {
   return std::get<std::vector<Number>>(found->values);
 }
 
+/// True if the view has the camera that the options describe.
+bool has_camera_of_options(const DatasetView& view) {
+  const auto* name = std::get_if<std::string>(&view.camera);
+  return name != nullptr && name->empty();
+}
+
 std::string place_of(std::uint32_t index) {
   return "--views: view " + std::to_string(index);
 }
@@ -59,7 +65,6 @@ ViewRenderer::ViewRenderer(Arguments& arguments, Warnings& warnings)
   file_.emplace(arguments_.scene, arguments_.load);
   apply_defaults(arguments_, file_->format());
   integrator_ = make_integrator(*arguments_.integrator);
-  if (arguments_.frames) framing_ = frame_all(*file_, Sequence(arguments_), arguments_);
   if (arguments_.denoises) denoiser_.emplace();
 }
 
@@ -148,8 +153,8 @@ void ViewRenderer::check_look(const DatasetView& view, std::uint32_t index) cons
 }
 
 CameraOptions ViewRenderer::camera_options(const DatasetView& view, std::uint32_t index) const {
+  if (has_camera_of_options(view)) return arguments_.camera;
   const auto* name = std::get_if<std::string>(&view.camera);
-  if (name != nullptr && name->empty()) return arguments_.camera;
   CameraOptions options;
   if (const auto* direction = std::get_if<View>(&view.camera)) {
     options.orbit = OrbitView{.view = *direction};
@@ -162,11 +167,13 @@ CameraOptions ViewRenderer::camera_options(const DatasetView& view, std::uint32_
   return options;
 }
 
-Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, ImageSize size) const {
+Camera ViewRenderer::camera_of(const DatasetView& view, std::uint32_t index, ImageSize size) {
   if (const auto* camera = std::get_if<Camera>(&view.camera)) return in_scene(*scene_, *camera);
-  const auto* name = std::get_if<std::string>(&view.camera);
-  if (framing_ && !view.size && name != nullptr && name->empty())
-    return in_coordinates_of(*scene_, *framing_);
+  if (arguments_.frames && !view.size && has_camera_of_options(view)) {
+    // Only when needed, because all frames are posed.
+    if (!framing_) framing_ = frame_all(*file_, Sequence(arguments_), arguments_);
+    if (*framing_) return in_coordinates_of(*scene_, **framing_);
+  }
   return choose_camera(*scene_, camera_options(view, index), size);
 }
 

@@ -53,8 +53,7 @@ class ViewRenderer {
  private:
   /// Returns the options that select the camera of a view that has no camera of its own.
   [[nodiscard]] CameraOptions camera_options(const DatasetView& view, std::uint32_t index) const;
-  [[nodiscard]] Camera camera_of(const DatasetView& view, std::uint32_t index,
-                                 ImageSize size) const;
+  [[nodiscard]] Camera camera_of(const DatasetView& view, std::uint32_t index, ImageSize size);
   [[nodiscard]] unsigned threads() const;
   /// Returns the channels from which the annotations are made.
   [[nodiscard]] std::vector<Aov> annotation_channels() const;
@@ -80,9 +79,10 @@ class ViewRenderer {
   std::string variant_;                   ///< of file_
   std::optional<std::uint64_t> objects_;  ///< digest of the objects, for check_objects()
   std::optional<SceneFile> file_;
-  std::optional<PerspectiveCamera> framing_;  ///< of all frames, in world space
-  std::optional<DatasetView> loaded_;         ///< the view whose scene is loaded
-  std::string environment_source_;            ///< of environment_
+  /// The result of frame_all(), once a view has needed it.
+  std::optional<std::optional<PerspectiveCamera>> framing_;
+  std::optional<DatasetView> loaded_;  ///< the view whose scene is loaded
+  std::string environment_source_;     ///< of environment_
   std::optional<Environment> environment_;
   std::shared_ptr<const Scene> scene_;
   std::optional<PreparedScene> prepared_;  ///< of scene_
