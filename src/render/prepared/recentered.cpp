@@ -73,7 +73,7 @@ std::optional<PointBounds> bounds_of_points(const Scene& scene) {
 DVec3 translation_to_origin(const PointBounds& points, const Camera& camera) {
   PointBounds bounds = points;
   std::visit([&](const auto& c) { bounds.add(c.pose.position); }, camera);
-  if (bounds.low == bounds.high) return DVec3(0);  // there is nothing but the camera
+  if (bounds.low == bounds.high) return DVec3(0);  // all is at the camera
   return translation_to_origin(bounds);
 }
 

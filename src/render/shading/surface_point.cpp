@@ -3,6 +3,7 @@
 #include "render/kernels/find_points.hpp"
 #include "render/shading/hit_lanes.hpp"
 #include "render/shading/normals.hpp"
+#include "scene/kernels/triangle.hpp"
 
 #include <microtrace/surface_interaction.hpp>
 
@@ -18,12 +19,6 @@ Value weighed(const std::array<std::uint32_t, 3>& corners, const Vec3& weights,
               const Array<Value>& values) {
   return weights.x * values[corners[0]] + weights.y * values[corners[1]] +
          weights.z * values[corners[2]];
-}
-
-/// A normal of the triangle whose length is twice the area.
-DVec3 doubled_area(const PlacedMesh& mesh, const std::array<std::uint32_t, 3>& corners) {
-  const DVec3 a(mesh.position(corners[0]));
-  return glm::cross(DVec3(mesh.position(corners[1])) - a, DVec3(mesh.position(corners[2])) - a);
 }
 
 }  // namespace
@@ -51,7 +46,9 @@ Vec2 SurfacePoint::further_uv(std::uint32_t set) const {
 
 float SurfacePoint::further_uv_scale(std::uint32_t set) const {
   if (!mesh || !has_uv(*mesh.arrays, set) || is_edge_on) return 0;
-  const auto area = static_cast<float>(glm::length(doubled_area(mesh, corners)));
+  const auto position = [&](std::size_t i) { return DVec3(mesh.position(corners[i])); };
+  const DVec3 normal = area_vector<1>({position(0), position(1), position(2)});
+  const auto area = static_cast<float>(glm::length(normal));
   if (!(area > 0)) return 0;
   Floats2<1> uv[3];
   for (std::size_t i = 0; i < 3; ++i) {
@@ -110,7 +107,7 @@ SurfacePoint surface_point(const PlacedMesh& mesh, std::size_t triangle, const V
   at.front = front;
   const Triangle t = triangle_of(mesh, triangle);
   at.p = barycentrics.x * t.a + barycentrics.y * t.b + barycentrics.z * t.c;
-  const DVec3 n = doubled_area(mesh, at.corners);
+  const DVec3 n = area_vector<1>({DVec3(t.a), DVec3(t.b), DVec3(t.c)});
   const double area = glm::length(n);
   if (!(area > 0)) return at;
   HitArrays<1> lanes;
