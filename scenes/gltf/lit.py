@@ -12,6 +12,7 @@ import struct
 from asset import Asset, png, unit
 
 REPEAT, LINEAR, MIP_MAPS, NEAREST = 10497, 9729, 9987, 9728
+SMOOTH = {"wrapS": REPEAT, "wrapT": REPEAT, "magFilter": LINEAR, "minFilter": MIP_MAPS}  # a sampler
 
 
 def ball_points(rows=8, columns=12):
@@ -158,19 +159,22 @@ def bumps(u, v):
     return (0.5 + 0.5 * x / length, 0.5 + 0.5 * y / length, 0.5 + 0.5 / length)
 
 
+def leaf_color(u, v):
+    """A green disc with a soft edge of alpha."""
+    return 0.2 + 0.6 * u, 0.7, 0.2, 1.2 - 2.4 * math.hypot(u - 0.5, v - 0.5)
+
+
 def textured():
     asset = Asset()
-    smooth = {"wrapS": REPEAT, "wrapT": REPEAT, "magFilter": LINEAR, "minFilter": MIP_MAPS}
     color = asset.texture("color", pattern(16, 3, lambda u, v: (
-        0.2 + 0.7 * (int(4 * u) % 2), 0.3 + 0.5 * v, 0.8 - 0.6 * (int(4 * v) % 2))), smooth)
+        0.2 + 0.7 * (int(4 * u) % 2), 0.3 + 0.5 * v, 0.8 - 0.6 * (int(4 * v) % 2))), SMOOTH)
     # Each channel says something else to each of its slots.
     data = asset.texture("data", pattern(16, 4, lambda u, v: (
-        0.5 + 0.5 * math.sin(2 * math.pi * u), 0.15 + 0.8 * v, float((int(4 * u) + int(4 * v)) % 2), 0.2 + 0.8 * u)), smooth)
-    normal = asset.texture("normal", pattern(16, 3, bumps), smooth)
+        0.5 + 0.5 * math.sin(2 * math.pi * u), 0.15 + 0.8 * v, float((int(4 * u) + int(4 * v)) % 2), 0.2 + 0.8 * u)), SMOOTH)
+    normal = asset.texture("normal", pattern(16, 3, bumps), SMOOTH)
     glow = asset.texture("glow", pattern(8, 3, lambda u, v: (
-        1.0, 0.6 * v, 0.1) if (int(8 * u) + int(8 * v)) % 3 == 0 else (0, 0, 0)), dict(smooth, magFilter=NEAREST))
-    leaf = asset.texture("leaf", pattern(16, 4, lambda u, v: (
-        0.2 + 0.6 * u, 0.7, 0.2, 1.2 - 2.4 * math.hypot(u - 0.5, v - 0.5))), smooth)
+        1.0, 0.6 * v, 0.1) if (int(8 * u) + int(8 * v)) % 3 == 0 else (0, 0, 0)), dict(SMOOTH, magFilter=NEAREST))
+    leaf = asset.texture("leaf", pattern(16, 4, leaf_color), SMOOTH)
 
     def use(texture, **members):
         return {"index": texture, **members}

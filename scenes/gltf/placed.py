@@ -5,7 +5,7 @@ textures use different sets of texture coordinates.
 import math
 
 from asset import Asset
-from lit import LINEAR, MIP_MAPS, REPEAT, ball, bumps, camera, light, material, pattern, quad, stand
+from lit import SMOOTH, ball, bumps, camera, leaf_color, light, material, pattern, quad, stand
 
 
 def place(asset, mesh, name, **node):
@@ -16,12 +16,10 @@ def place(asset, mesh, name, **node):
 
 def instances():
     asset = Asset()
-    smooth = {"wrapS": REPEAT, "wrapT": REPEAT, "magFilter": LINEAR, "minFilter": MIP_MAPS}
     color = asset.texture("color", pattern(32, 3, lambda u, v: (
-        0.2 + 0.7 * (int(8 * u) % 2), 0.3 + 0.5 * v, 0.8 - 0.6 * (int(8 * v) % 2))), smooth)
-    normal = asset.texture("normal", pattern(16, 3, bumps), smooth)
-    leaf = asset.texture("leaf", pattern(32, 4, lambda u, v: (
-        0.2 + 0.6 * u, 0.7, 0.2, 1.2 - 2.4 * math.hypot(u - 0.5, v - 0.5))), smooth)
+        0.2 + 0.7 * (int(8 * u) % 2), 0.3 + 0.5 * v, 0.8 - 0.6 * (int(8 * v) % 2))), SMOOTH)
+    normal = asset.texture("normal", pattern(16, 3, bumps), SMOOTH)
+    leaf = asset.texture("leaf", pattern(32, 4, leaf_color), SMOOTH)
     primitive = ball(asset)
     columns, rows = 12, 8
     wide = [(12 * column / columns, 8 * row / rows) for row in range(rows + 1) for column in range(columns + 1)]

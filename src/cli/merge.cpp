@@ -80,6 +80,7 @@ bool merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
   if (!picture.empty()) check_image_path(picture, {.alpha = all.has_alpha});
   check_outputs_differ({{"--output", picture}, {"--checkpoint", merged}});
   add_files(all, std::span(files).subspan(1), memory, true);
+  // Any of the checkpoints may have the channels.
   if (!picture.empty()) check_image_path(picture, contents_of(all, denoiser != nullptr));
   check_no_input_is_overwritten(inputs, {{"--output", picture}, {"--checkpoint", merged}});
   const std::string missing = missing_samples(all);

@@ -67,8 +67,7 @@ struct AnnotationLine {
 std::string name_of(const AnnotationLine& line, std::size_t index) {
   try {
     if (line.has_members()) return line.name();
-  } catch (const Error&) {
-    refuse_part(index);
+  } catch (const Error&) {  // refused below, like a line without members
   }
   refuse_part(index);
 }
