@@ -3,6 +3,7 @@
 #include "render/bsdf/frame.hpp"
 #include "render/lights/light_limits.hpp"
 #include "render/sampling/warps.hpp"
+#include "scene/kernels/triangle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,16 +35,17 @@ Flat flat(const DVec3& v, double area) {
   if (!(length > 0) || !std::isfinite(length)) return {};
   return {.n = Vec3(v / length), .area = area};
 }
-/// A vector perpendicular to the triangle. Its length is twice the area.
-DVec3 area_vector(const Triangle& t) {
-  return glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
+
+/// The normal of the triangle's front. Its length is twice the area.
+DVec3 area_vector_of(const Triangle& t) {
+  return area_vector<1>({DVec3(t.a), DVec3(t.b), DVec3(t.c)});
 }
 
 Flat flat_of(const Disc& s) {
   return flat(DVec3(s.normal), kPi * double{s.radius} * double{s.radius});
 }
 Flat flat_of(const Triangle& s) {
-  return flat(area_vector(s), triangle_area(s));
+  return flat(area_vector_of(s), triangle_area(s));
 }
 
 DVec3 point_of(const Disc& s, const Vec3& n, const Vec2& u) {
@@ -143,7 +145,7 @@ std::optional<LightBounds> shape_bounds(const Shape& shape) {
 }
 
 double triangle_area(const Triangle& t) {
-  const DVec3 v = area_vector(t);
+  const DVec3 v = area_vector_of(t);
   return std::sqrt(glm::dot(v, v)) / 2;
 }
 
