@@ -94,16 +94,27 @@ Quadric magnitudes_of(const Quadric& q) {
           std::abs(q.f), std::abs(q.g), std::abs(q.h), std::abs(q.i), std::abs(q.j)};
 }
 
+/// The sign of the product of a normal and a direction.
+int slope_sign(const Vec3& normal, const Vec3& d) {
+  // The products are exact, and their sum has two roundings.
+  const DVec3 terms = DVec3(normal) * DVec3(d);
+  const double slope = terms.x + terms.y + terms.z;
+  if (std::abs(slope) > 0x1p-50 * magnitudes_sum(terms)) return slope < 0 ? -1 : 1;
+  return dot(exact::vector(normal), exact::vector(d)).sign();
+}
+
 class Interaction {
  public:
   Interaction(const Primitives& primitives, const Ray& ray, const Hit& hit)
       : primitives_(primitives), ray_(ray), hit_(hit), o_(ray.o), d_(ray.d) {}
 
   SurfaceInteraction operator()(const Sphere& s) const {
-    const std::optional<double> t = hit_of(s);
-    if (!t) return exactly(s);
-    const DVec3 center(s.center), n = direction_or(o_ - center + *t * d_, facing());
-    return at(center + double{s.radius} * n, n);
+    const std::optional<SphereHit> hit = hit_of(s);
+    if (!hit) return exactly(s);
+    const DVec3 center(s.center), n = direction_or(o_ - center + hit->t * d_, facing());
+    SurfaceInteraction result = at(center + double{s.radius} * n, n);
+    result.front = hit->enters;
+    return result;
   }
 
   SurfaceInteraction operator()(const Plane& s) const { return planar(s, s.point); }
@@ -139,9 +150,14 @@ class Interaction {
   SurfaceInteraction operator()(const Mesh&) const { return {}; }  // never called
 
  private:
-  /// The parameter of the hit with a sphere; nothing if the ray nearly touches it, or if the
-  /// parameter exceeds float32.
-  [[nodiscard]] std::optional<double> hit_of(const Sphere& s) const {
+  struct SphereHit {
+    double t;
+    bool enters;
+  };
+
+  /// The hit with a sphere; nothing if the ray nearly touches it, if the parameter exceeds float32,
+  /// or if float64 can't tell which of the roots is the hit.
+  [[nodiscard]] std::optional<SphereHit> hit_of(const Sphere& s) const {
     if (!std::isfinite(hit_.t)) return std::nullopt;
     const DVec3 from_center = o_ - DVec3(s.center), across = glm::cross(from_center, d_);
     const double a = glm::dot(d_, d_), b = glm::dot(from_center, d_), r = s.radius;
@@ -151,9 +167,14 @@ class Interaction {
     if (!(discriminant > 0 && discriminant * discriminant > 0x1p-60 * square * offset * a))
       return std::nullopt;
     const double root = std::sqrt(discriminant), lo = (-b - root) / a, hi = (-b + root) / a;
-    const double t = std::abs(lo - hit_.t) <= std::abs(hi - hit_.t) ? lo : hi;
     const double tolerance = 0x1p-22 * hit_.t + 0x1p-44 * std::sqrt(square / a);
-    return std::abs(t - hit_.t) <= tolerance ? std::optional(t) : std::nullopt;
+    const bool is_near_lo = std::abs(lo - hit_.t) <= tolerance;
+    const bool is_near_hi = std::abs(hi - hit_.t) <= tolerance;
+    // Both roots of a distant sphere may be as near to the rounded t. The hit is the first one from
+    // t_min on.
+    if (is_near_lo && (!is_near_hi || lo - tolerance > ray_.t_min)) return SphereHit{lo, true};
+    if (is_near_hi && (!is_near_lo || lo + tolerance < ray_.t_min)) return SphereHit{hi, false};
+    return std::nullopt;
   }
 
   [[nodiscard]] DVec3 facing() const { return direction_or(-d_, DVec3(0, 0, 1)); }
@@ -172,7 +193,9 @@ class Interaction {
     const DVec3 normal(s.normal);
     const double t = glm::dot(point - o_, normal) / glm::dot(d_, normal);
     if (!std::isfinite(hit_.t) || !(std::abs(t - hit_.t) <= 0x1p-22 * hit_.t)) return exactly(s);
-    return at(o_ + t * d_, direction_or(normal, facing()));
+    SurfaceInteraction result = at(o_ + t * d_, direction_or(normal, facing()));
+    result.front = slope_sign(s.normal, ray_.d) <= 0;
+    return result;
   }
 
   /// The point of the hit by exact arithmetic, which is slow.

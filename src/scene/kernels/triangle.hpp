@@ -36,9 +36,10 @@ inline Doubles3<N> area_vector(const TriangleCorners<N>& t) {
 
 /// Barycentric coordinates of the point where the ray meets the triangle's plane (T. Moeller and B.
 /// Trumbore, Fast, minimum storage ray/triangle intersection, 1997). They exist if the triangle has
-/// an area and is not seen nearly edge-on: each term of the determinant has at most six roundings
-/// and is at most the product of the three sums, so the relative error of the determinant is then
-/// below 2^-26, and its sign is certain.
+/// an area and is neither seen nearly edge-on nor extremely far away: each term of the determinant
+/// has at most six roundings and is at most the product of the three sums, so the relative error of
+/// the determinant is then below 2^-26, and its sign is certain. Likewise, the errors of the
+/// coordinates are then below 2^-11.
 template <int N>
 inline auto barycentrics_of(const TriangleCorners<N>& t, const Doubles3<N>& o,
                             const Doubles3<N>& d) {
@@ -47,8 +48,10 @@ inline auto barycentrics_of(const TriangleCorners<N>& t, const Doubles3<N>& o,
   const V e1 = t.b - t.a, e2 = t.c - t.a, from_a = o - t.a;
   const V across = cross(d, e2), up = cross(from_a, e1);
   const D determinant = dot(e1, across), zero{};
-  const D terms = magnitudes_sum(e1) * magnitudes_sum(e2) * magnitudes_sum(d);
-  const auto exists = magnitude(determinant) > 0x1p-24 * terms;
+  const D size1 = magnitudes_sum(e1), size2 = magnitudes_sum(e2), size_d = magnitudes_sum(d);
+  const D far_terms = magnitudes_sum(from_a) * larger_of(size1, size2) * size_d;
+  const auto exists = (magnitude(determinant) > 0x1p-24 * (size1 * size2 * size_d)) &
+                      (magnitude(determinant) > 0x1p-38 * far_terms);
   // The hit is inside the triangle, but rounding can give slightly negative weights.
   const D inverse = 1 / determinant;
   const D v = larger_of(D(dot(from_a, across) * inverse), zero);

@@ -212,6 +212,57 @@ TEST(SurfaceInteraction, SmallDistantSpheresHaveExactPoints) {
               5e-15);
 }
 
+// Both roots have the same float32 neighbor as t.
+TEST(SurfaceInteraction, RaysArriveAtTheNearSidesOfDistantSpheres) {
+  const SurfaceInteraction near =
+      meet(Sphere{{0, 0, 1}, 1}, {.o = {0, 0, 50000008}, .d = {0, 0, -1}});
+  EXPECT_TRUE(near.front);
+  EXPECT_EQ(near.p, DVec3(0, 0, 2));
+  EXPECT_EQ(near.n, DVec3(0, 0, 1));
+  const SurfaceInteraction from_center =
+      meet(Sphere{{0, 0, 1}, 1}, {.o = {0, 0, 50000008}, .t_min = 50000008, .d = {0, 0, -1}});
+  EXPECT_FALSE(from_center.front);
+  EXPECT_EQ(from_center.p, DVec3(0, 0, 0));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> coordinate(-1, 1);
+  const auto any = [&] { return Vec3(coordinate(random), coordinate(random), coordinate(random)); };
+  int hits = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Sphere sphere{any(), 1e-6F};
+    Ray ray{.o = 100.0F * any()};
+    ray.d = Vec3(DVec3(sphere.center) + 0.3e-6 * DVec3(any()) - DVec3(ray.o));
+    Scene scene;
+    scene.objects.push_back({.shape = sphere});
+    const Bvh bvh(scene, {.threads = 1});
+    const std::optional<Hit> hit = bvh.intersect(ray);
+    if (!hit) continue;
+    ++hits;
+    const SurfaceInteraction surface = interact(bvh.primitives(), ray, *hit);
+    EXPECT_TRUE(surface.front);
+    EXPECT_LE(glm::dot(surface.n, DVec3(ray.d)), 0);
+  }
+  EXPECT_GT(hits, 100);
+}
+
+TEST(SurfaceInteraction, SidesOfPlanesAndDiscsAreExact) {
+  // The product of the directions is -2^-60. That of the rounded unit normal is positive.
+  const Ray ray{.o = {0, 0, 0x1p-60F}, .d = {-5, 2, -0x1p-60F}};
+  EXPECT_TRUE(meet(Plane{{0, 0, 0}, {2, 5, 1}}, ray).front);
+  EXPECT_TRUE(meet(Disc{{0, 0, 0}, {2, 5, 1}, 9}, ray).front);
+  EXPECT_FALSE(meet(Plane{{0, 0, 0}, {-2, -5, -1}}, ray).front);
+}
+
+TEST(SurfaceInteraction, WeightsOfExtremelyDistantTrianglesAreExact) {
+  const Triangle triangle{{0x1p-20F, 0, 0}, {0, 0x1p-20F, 0}, {0, 0, 0x1p-21F}};
+  for (const float distance : {1.0F, 1e4F, 1e8F, 1e12F}) {
+    const Ray ray{.o = Vec3(distance), .d = Vec3(-1)};
+    // The ray meets the plane x + y + 2 z = 2^-20 where x = y = z = 2^-22.
+    const SurfaceInteraction surface = meet(triangle, ray);
+    ASSERT_TRUE(surface.triangle);
+    expect_near(surface.triangle->barycentrics, {0.25, 0.25, 0.5}, 1e-3);
+  }
+}
+
 TEST(SurfaceInteraction, SidesOfTrianglesAreExact) {
   // n . d is positive, but float64 gives a negative number.
   const Triangle triangle{{2, 0, -1}, {0x1p-61F, 0x1p-60F, 0x1p-60F}, {0, 0x1p-41F, 0}};
