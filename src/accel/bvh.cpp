@@ -138,13 +138,14 @@ void Bvh::Impl::intersect(std::span<const Ray> rays, std::span<const PrimitiveId
                   intersect_packet(rays.first(done), open, hits);
     }
     if (!is_packet) {
-      done = has_tree ? unrelated_length(rays) : 1;
+      // Packets fail if one of their rays exceeds the limits. Streams ask such rays one by one.
+      if (done < kLeastPacket) done = has_tree ? unrelated_length(rays) : 1;
       const auto ask_one = [&](std::size_t i) {
         hits[i] = intersect(rays[i], [&](PrimitiveId id) {
           return meets_open_side(primitives, open, rays[i], id);
         });
       };
-      if (done >= kLeastStream) {
+      if (has_tree && done >= kLeastStream) {
         if (!stream) {
           stream = std::make_unique<RayStream>(stream_target());
           stream->set_filter({.open = open});
@@ -162,7 +163,10 @@ void Bvh::Impl::intersect(std::span<const Ray> rays, std::span<const PrimitiveId
 }
 
 Bvh::Bvh(const Scene& scene, BvhOptions options)
-    : impl_(std::make_unique<const Impl>(scene, std::move(options))) {}
+    : impl_([&] {
+        const FloatEnvironment environment;
+        return std::make_unique<const Impl>(scene, std::move(options));
+      }()) {}
 Bvh::~Bvh() = default;
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
