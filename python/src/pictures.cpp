@@ -1,6 +1,7 @@
 /// Renders into NumPy arrays, and saves pictures.
 
 #include "common.hpp"
+#include "float_environment.hpp"
 #include "io/image/encode/eight_bits.hpp"
 #include "prepared.hpp"
 #include "scene_reader.hpp"
@@ -167,8 +168,7 @@ class Progress {
     if (!function_.is_valid() || function_.is_none()) return true;
     const nb::gil_scoped_acquire acquire;
     try {
-      const nb::object result = function_(share);
-      return result.is_none() || is_true(result);
+      return !function_(share).is(nb::bool_(false));
     } catch (nb::python_error&) {
       failure_ = std::current_exception();
       return false;
@@ -181,12 +181,6 @@ class Progress {
   }
 
  private:
-  static bool is_true(const nb::object& value) {
-    const int result = PyObject_IsTrue(value.ptr());
-    if (result < 0) nb::raise_python_error();
-    return result != 0;
-  }
-
   const nb::object& function_;
   const std::function<bool()>& cancel_;
   std::exception_ptr failure_;
@@ -381,6 +375,7 @@ void encode(const Pixels<const float>& color, double exposure, const std::string
             const Pixels<std::uint8_t>& to) {
   const Film film = film_of(color, exposure, tone_map, nb::dict());
   const nb::gil_scoped_release release;
+  const FloatEnvironment environment;
   for (std::uint32_t y = 0; y < film.size().height; ++y)
     io::encode_row(film, y, to.data() + std::size_t{y} * to.shape(1) * to.shape(2));
 }

@@ -2,6 +2,7 @@
 /// Converts rays and hits from and to NumPy arrays.
 
 #include "common.hpp"
+#include "float_environment.hpp"
 #include "prepared.hpp"
 
 #include <limits>
@@ -26,6 +27,7 @@ class Rays {
 
   /// Sets `to` to the rays [first, last) in scene coordinates.
   void get(std::size_t first, std::size_t last, std::vector<Ray>& to) const {
+    const FloatEnvironment environment;
     to.resize(last - first);
     if (is_double_)
       gather<double>(first, to);

@@ -1,6 +1,7 @@
 /// Binds loading and preparing of scenes.
 
 #include "common.hpp"
+#include "float_environment.hpp"
 #include "member_names.hpp"
 #include "prepared.hpp"
 #include "scene/math/srgb.hpp"
@@ -66,6 +67,7 @@ nb::tuple at(SharedFile& shared, std::optional<double> time) {
 
 void prepare(Prepared* self, const nb::object& source, const nb::object& previous, unsigned threads,
              bool fast_build) {
+  const FloatEnvironment environment;
   std::string integrator;
   if (!nb::try_cast(source.attr("integrator"), integrator) ||
       (integrator != "path" && integrator != "flat"))

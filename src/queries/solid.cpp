@@ -109,6 +109,7 @@ Solid::Solid(PreparedScene scene, std::optional<std::size_t> object)
     : impl_(std::make_shared<const Impl>(std::move(scene), object)) {}
 
 std::span<const OpenEdge> Solid::open_edges() const {
+  const FloatEnvironment environment;
   return impl_->edges.get([this] {
     return limiting_memory([this] {
       auto edges = microtrace::open_edges(impl_->primitives, impl_->selection);

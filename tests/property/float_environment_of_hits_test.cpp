@@ -7,6 +7,8 @@
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/dataset.hpp>
+#include <microtrace/prepared_scene.hpp>
+#include <microtrace/queries.hpp>
 #include <microtrace/spawn.hpp>
 #include <microtrace/surface_interaction.hpp>
 
@@ -28,6 +30,30 @@ class HostRulesOfHits : public tests::HostRules {};
 
 INSTANTIATE_TEST_SUITE_P(Rounding, HostRulesOfHits,
                          testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
+
+// Differences of ray origins and the scene's origin are rounded. If subnormals were flushed to
+// zero, the vertices of the solid would coincide.
+TEST_P(HostRulesOfHits, ChangeNoRayInTheSceneAndNoEdge) {
+  constexpr float kLeast = std::numeric_limits<float>::denorm_min();
+  Scene scene;
+  scene.objects.push_back({.shape = Triangle{{0, 0, 0}, {kLeast, 0, 0}, {0, kLeast, 0}}});
+  const auto counts = [&] {
+    const Solid solid{PreparedScene(scene)};
+    return std::pair(solid.is_closed(), solid.open_edges().size());
+  };
+  Scene moved = scene;
+  moved.origin = {1e6, 1e-3, 0};
+  const PreparedScene prepared(moved);
+  const Ray ray{.o = {0.1F, 0.1F, 0.7F}, .d = {0, 0, 1}};
+  const Vec3 expected = prepared.in_scene(ray).o;
+  set();
+  const Vec3 actual = prepared.in_scene(ray).o;
+  const std::pair<bool, std::size_t> edges = counts();
+  expect_kept();
+  TearDown();
+  EXPECT_EQ(actual, expected);
+  EXPECT_EQ(edges, std::pair(false, std::size_t{3}));
+}
 
 // The triangle is smaller than the least normal number. If subnormals were flushed to zero, it
 // would be a point.

@@ -53,6 +53,7 @@ std::shared_ptr<const SharedTables> PreparedScene::tables() const {
 }
 
 Ray PreparedScene::in_scene(const Ray& ray) const {
+  const FloatEnvironment environment;
   const DVec3& origin = scene().origin;
   if (origin == DVec3(0)) return ray;
   Ray result = ray;
