@@ -28,6 +28,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   # hold.
   target_compile_options(microtrace_flags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
+# For code that runs once, such as that which reads the command line: less than half the size.
+add_library(microtrace_small_code INTERFACE)
+target_compile_options(microtrace_small_code INTERFACE $<$<CONFIG:Release>:-Os>)
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(MICROTRACE_WITH_AVX OFF)
 endif()
