@@ -289,6 +289,7 @@ class Dataset(ProgramTest):
         options = ["--views", "orbit:2", *SMALL]
         self.dataset(*options)
         whole = self.contents()
+        self.dataset(*options, "--formats", "png", "--seed=0")  # the defaults
         for others, reason in ((["--views", "orbit:3", *SMALL], "other options"),
                                ([*options, "--background", "#ff0000"], "other options"),
                                ([*options, "--formats", "exr"], "other options")):

@@ -40,7 +40,7 @@ void check_words(Command command, std::span<char* const> words) {
     const std::string name(word.substr(0, equals));
     if (equals != word.npos) {
       if (option->is_switch()) refuse_usage(name + ": takes no value");
-      if (option->is_flag() && equals + 1 == word.size()) refuse_empty(name);
+      if (equals + 1 == word.size()) refuse_empty(name);
     } else if (!option->is_flag() && i + 1 < words.size() &&
                named_by(command, words[i + 1]) != nullptr) {
       refuse_usage(name + " expects a value, but is followed by " + printable(words[i + 1]));

@@ -98,10 +98,17 @@ class Parser {
   std::vector<std::pair<const Option*, CLI::Option*>> options_{};
 };
 
-std::string identity_of(const std::vector<Given>& given) {
+/// Returns true if the option has the value that it has without being given. Descriptions of
+/// defaults are no values.
+bool is_default(const Given& given) {
+  return given.values.size() == 1 && given.values.front() == given.option->default_value;
+}
+
+std::string identity_of(const std::vector<Given>& all) {
   std::string identity;
-  for (const auto& [option, values] : given) {
-    if (option->samples != Samples::change) continue;
+  for (const Given& given : all) {
+    const auto& [option, values] = given;
+    if (option->samples != Samples::change || is_default(given)) continue;
     identity += option->name();
     char before = '\t';
     for (const std::string& value : values) {
@@ -126,13 +133,14 @@ bool is_of_run(const Option& option) {
 }
 
 /// Sets the identity of a data set: all options but those that change only where and how the
-/// program runs and reads the scene. The command line also has --allow-path, without which the
-/// scene can't be read again.
-void identify_dataset(const std::vector<Given>& given, DatasetOptions& dataset) {
-  for (const auto& [option, values] : given) {
+/// program runs and reads the scene, and those that have their defaults. The command line also has
+/// --allow-path, without which the scene can't be read again.
+void identify_dataset(const std::vector<Given>& all, DatasetOptions& dataset) {
+  for (const Given& given : all) {
+    const auto& [option, values] = given;
     constexpr std::array kNotOfFiles = {"--output", "--shard", "--instances"};
     if (std::ranges::find(kNotOfFiles, option->name()) != kNotOfFiles.end()) continue;
-    if (is_of_run(*option)) continue;
+    if (is_of_run(*option) || is_default(given)) continue;
     for (const std::string& value : values) {
       std::string argument = value;
       if (!option->is_positional()) {
