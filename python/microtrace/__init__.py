@@ -23,7 +23,7 @@ from .errors import (
     UnsupportedError,
     UsageError,
 )
-from .hits import AllHits, ClosestPoints, Hits
+from .hits import AllHits, ClosestPoints, HitField, Hits
 from .images import Image, RadianceMap, load_map
 from .lights import DirectionalLight, Environment, Light, PointLight, SpotLight
 from .materials import (
@@ -41,7 +41,7 @@ from .materials import (
     Volume,
     VolumeScatter,
 )
-from .pictures import Picture, frame, render
+from .pictures import Picture, Quantity, frame, render
 from .prepared import OpenMeshWarning, PreparedScene
 from .scene import Scene, SceneFile, load, scene_of
 from .shapes import Disc, Mesh, Object, Plane, Quadric, Shape, Sphere, Triangle
@@ -65,6 +65,7 @@ __all__ = [
     "Error",
     "FileError",
     "FisheyeDistortion",
+    "HitField",
     "Hits",
     "Image",
     "Iridescence",
@@ -81,6 +82,7 @@ __all__ = [
     "PointLight",
     "PreparedScene",
     "Quadric",
+    "Quantity",
     "RadianceMap",
     "RationalDistortion",
     "Scene",

@@ -16,11 +16,18 @@ Array = npt.NDArray[Any]
 MOST = 2**63 - 1
 
 
+def _has_masked(values: Any) -> bool:
+    if isinstance(values, np.ma.MaskedArray):
+        return bool(np.ma.is_masked(values))
+    return isinstance(values, (list, tuple)) and any(
+        isinstance(row, (list, tuple, np.ma.MaskedArray)) and _has_masked(row) for row in values
+    )
+
+
 def as_array(values: Any, what: str) -> Array:
     """Converts lists, and objects that NumPy converts. Raises ValueError for lists of unequal
     lengths, and for masked arrays in which something is masked."""
-    rows = values if isinstance(values, (list, tuple)) else (values,)
-    if any(isinstance(row, np.ma.MaskedArray) and np.ma.is_masked(row) for row in rows):
+    if _has_masked(values):
         raise ValueError(f"{what} must not have masked values; replace them, as by filled()")
     try:
         return np.asarray(values)
@@ -51,9 +58,9 @@ def as_numbers(values: Any, what: str, width: int) -> Array:
 
 
 def as_float32(values: npt.ArrayLike) -> npt.NDArray[np.float32]:
-    """Returns a C-contiguous array of rounded numbers. Numbers beyond float32 become infinite,
+    """Returns a C-contiguous array of rounded numbers. Numbers beyond float32 become infinite or 0,
     without a warning."""
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", under="ignore"):
         return np.ascontiguousarray(values, np.float32)
 
 

@@ -68,14 +68,18 @@ class Hits(_Arrays):
 
     @property
     def hit(self) -> npt.NDArray[np.bool_]:
-        """A bool array; True for each ray that hits anything."""
+        """A bool array; True for each ray that hits anything.
+
+        Needs one of the fields object, primitive and t. With t alone, a hit whose t is greater than
+        float32 numbers looks like a miss.
+        """
         arrays = vars(self)
         if "object" in arrays:
             return np.asarray(self.object >= 0)
         if "primitive" in arrays:
             return np.asarray(self.primitive >= 0)
         if "t" not in arrays:
-            raise ValueError("hit needs one of the fields t, object and primitive")
+            raise AttributeError("hit needs one of the fields object, primitive and t")
         return np.asarray(np.isfinite(self.t))
 
 

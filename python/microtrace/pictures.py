@@ -529,7 +529,10 @@ class _shown:
     ) -> None:
         if not callable(progress) and not isinstance(progress, (bool, type(None))):
             raise TypeError(f"progress must be a function, True or False, not {progress!r}")
-        self._function = progress if callable(progress) else None
+        self._progress = progress
+        self._function: Callable[[float], bool | None] | None = None
+        if callable(progress):
+            self._function = self._go_on
         self._bar: Any = None
         if progress is True and sys.stderr is not None:  # pythonw and daemons have none
             try:
@@ -538,6 +541,12 @@ class _shown:
                 return
             self._bar = tqdm(total=count, unit=unit)
             self._function = self._advance
+
+    def _go_on(self, share: float) -> bool:
+        """Calls the user's function. What NumPy's comparisons return counts as bool."""
+        assert callable(self._progress)
+        result = self._progress(share)
+        return not isinstance(result, (bool, np.bool_)) or bool(result)
 
     def _advance(self, share: float) -> None:
         self._bar.update(share * self._bar.total - self._bar.n)

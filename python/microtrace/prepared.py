@@ -269,7 +269,7 @@ class PreparedScene:
     def open_edges(self, object: int | None = None) -> npt.NDArray[np.float64]:
         """Returns the ends of edges that belong to an odd number of triangles, (n, 2, 3) float64,
         in world space."""
-        return np.array(self._solid(object).open_edges(), np.float64).reshape(-1, 2, 3)
+        return self._solid(object).open_edges().copy()
 
     def locate(
         self, points: npt.ArrayLike, *, object: int | None = None, threads: int = 0
@@ -277,7 +277,8 @@ class PreparedScene:
         """Returns 1 for points inside closed meshes, 0 for points on them, and -1 for points
         outside.
 
-        A point is inside if a ray from it crosses an odd number of triangles. The ray is chosen by
+        Only triangles count, so points within spheres and other shapes are outside. A point is
+        inside if a ray from it crosses an odd number of triangles. The ray is chosen by
         exact tests to avoid all edges and vertices, so results for closed meshes are always
         correct.
 

@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import MOST, as_integer, as_reals
+from ._arrays import MOST, as_float32, as_integer, as_reals
 from .prepared import PreparedScene
 from .scene import Scene
 
@@ -57,6 +56,14 @@ class RayMeshIntersector:
         Returns:
             index_tri (h,) int64, index_ray (h,) int64 and, if requested, locations (h, 3) float64.
         """
+        if isinstance(max_hits, (bool, np.bool_)) or not isinstance(
+            multiple_hits, (bool, np.bool_)
+        ):
+            # The engine for Embree has other parameters in these places.
+            raise TypeError(
+                "the order of the arguments is that of trimesh.ray.ray_triangle: return_locations, "
+                "multiple_hits, max_hits; pass them by name"
+            )
         rays = self._rays(ray_origins, ray_directions)
         most = None if max_hits is None else as_integer(max_hits, "max_hits", 0, MOST)
         t, tri, ray = self._all(rays) if multiple_hits else self._nearest(rays)
@@ -131,7 +138,7 @@ class RayMeshIntersector:
             self._center = center
             with np.errstate(over="ignore"):
                 moved = np.where(is_used[:, None], vertices - center, 0)
-                self._vertices = moved.astype(np.float32)
+            self._vertices = as_float32(moved)
             scene = Scene()
             scene.add_mesh(self._vertices, faces)
             self._prepared_scene = scene.prepare()
@@ -143,26 +150,18 @@ class RayMeshIntersector:
         found, ties = self._prepared()._intersect_all(
             rays, 0, None, ("t", "primitive"), 0, finds_ties=True
         )
-        facing = self._facing(rays[found.ray, 3:], found.primitive)
+        facing = self._facing(rays[found.ray], found.primitive)
         counts = facing != 0
         t, tri, ray = found.t[counts], found.primitive[counts], found.ray[counts]
-        facing = facing[counts]
-        is_new = np.ones(len(t), bool)
         # The hits of a ray at one point have the same place.
         place = np.cumsum(~ties)[counts]
-        begins = np.ones(len(t), bool)
-        begins[1:] = place[1:] != place[:-1]
-        # The number of hits of the same ray, at the same point, before each hit.
-        before = np.arange(len(t)) - np.nonzero(begins)[0][np.cumsum(begins) - 1]
-        for lag in range(1, int(before.max(initial=0)) + 1):
-            at = np.nonzero(before >= lag)[0]
-            corners = self._vertices[np.asarray(self.mesh.faces)[tri[at]]]
-            earlier = self._vertices[np.asarray(self.mesh.faces)[tri[at - lag]]]
-            # Compares positions, because vertices with different indices coincide at seams.
-            is_shared = (corners[:, :, None] == earlier[:, None]).all(axis=3).any(axis=2)
-            # A ray through a sharp edge may enter and leave at the same point.
-            meets = _meet_shared_parts(rays[ray[at]], corners, is_shared)
-            is_new[at] &= ~(meets & (facing[at] == facing[at - lag]))
+        is_new = np.ones(len(t), bool)
+        is_tie = place[1:] == place[:-1]
+        at = np.nonzero(np.append(is_tie, False) | np.insert(is_tie, 0, False))[0]
+        corners = self._vertices[np.asarray(self.mesh.faces)[tri[at]]]
+        # A ray through a sharp edge may enter and leave at the same point.
+        group = 2 * place[at] + (facing[counts][at] > 0)
+        is_new[at] = ~_repeats_part(group, corners, rays[ray[at]])
         return t[is_new], tri[is_new], ray[is_new]
 
     def _nearest(self, rays: Array) -> tuple[Array, Array, Array]:
@@ -170,7 +169,7 @@ class RayMeshIntersector:
         hits = self._prepared().intersect(rays, t_min=0, fields=("t", "primitive"))
         ray = np.nonzero(hits.primitive >= 0)[0]
         t, tri = hits.t[ray], hits.primitive[ray]
-        edge_on = self._facing(rays[ray, 3:], tri) == 0
+        edge_on = self._facing(rays[ray], tri) == 0
         if not edge_on.any():
             return t, tri, ray
         asked = ray[edge_on]
@@ -182,19 +181,12 @@ class RayMeshIntersector:
         tri = np.concatenate([tri[~edge_on], more_tri[first]])
         return t[order], tri[order], ray[order]
 
-    def _facing(self, directions: Array, tri: Array) -> npt.NDArray[np.float64]:
-        """Returns the sign of the normal along the direction, 0 for triangles that are exactly
-        parallel to it; by exact arithmetic where float64 can't decide."""
-        corners = self._vertices[np.asarray(self.mesh.faces)[tri]]
-        d = directions.astype(np.float32).astype(np.float64)
-        a, b, c = corners.astype(np.float64).transpose(1, 0, 2)
-        slope = (np.cross(b - a, c - a) * d).sum(axis=1)
-        size = np.abs(b - a).max(axis=1, initial=0) * np.abs(c - a).max(axis=1, initial=0)
-        sign: npt.NDArray[np.float64] = np.sign(slope)
-        for i in np.nonzero(np.abs(slope) <= 1e-12 * size)[0]:
-            volume = _volume(corners[i], d[i])
-            sign[i] = (volume > 0) - (volume < 0)
-        return sign
+    def _facing(self, rays: Array, tri: npt.NDArray[np.int32]) -> npt.NDArray[np.int8]:
+        """Returns the sign of the normal of each ray's triangle along the ray; 0 for triangles that
+        are exactly parallel to the ray."""
+        facing = np.empty(len(tri), np.int8)
+        self._prepared()._core.find_facing(rays, tri, facing, 0)
+        return facing
 
     def _rays(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Returns rays relative to the mesh's center. Scales directions by powers of two, so that
@@ -227,44 +219,51 @@ class RayMeshIntersector:
         return np.asarray(o + parameter[:, None] * d + self._center)
 
 
-def _meet_shared_parts(
-    rays: Array, corners: Array, is_shared: npt.NDArray[np.bool_]
-) -> npt.NDArray[np.bool_]:
-    """True for each ray that hits its triangle at an edge or a vertex that another triangle, which
-    it hits at exactly the same t, shares. Others hit overlapping triangles, beside the shared part
-    by more than the rounding errors of float64.
+def _repeats_part(group: Array, corners: Array, rays: Array) -> npt.NDArray[np.bool_]:
+    """True for each hit at an edge or a vertex of its triangle that is also part of the triangle of
+    an earlier hit in the same group. Other hits of a group are of overlapping triangles, beside the
+    common part by more than the rounding errors of float64.
 
     Args:
-        rays: (n, 6).
+        group: (n,) integers, equal for hits of the same ray at the same point.
         corners: (n, 3, 3), of the triangles.
-        is_shared: (n, 3), True for shared corners.
+        rays: (n, 6).
     """
-    with np.errstate(over="ignore"):
-        o, d = rays.astype(np.float32).astype(np.float64).reshape(-1, 2, 3).transpose(1, 0, 2)
+    meets, ends = _met_parts(corners, rays)
+    hit, part = np.nonzero(meets)
+    low, high = np.sort(ends[hit, part], axis=1).T
+    part_id = np.unique(low * (3 * len(group) + 1) + high, return_inverse=True)[1]
+    key = np.unique(group[hit], return_inverse=True)[1] * len(hit) + part_id
+    # np.unique() returns the first index of each value, and hits are in ascending order.
+    first, inverse = np.unique(key, return_index=True, return_inverse=True)[1:]
+    repeats = np.zeros(len(group), bool)
+    repeats[hit[hit[first[inverse]] < hit]] = True
+    return repeats
+
+
+def _met_parts(corners: Array, rays: Array) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.int64]]:
+    """Returns whether rays meet the three edges and the three vertices of their triangles, (n, 6),
+    and the ends of these parts as numbers of positions, (n, 6, 2). Vertices with different indices
+    coincide at seams."""
+    o, d = as_float32(rays).astype(np.float64).reshape(-1, 2, 3).transpose(1, 0, 2)
     to = corners - o[:, None]
 
     def products(a: Array, b: Array) -> tuple[Array, Array]:
         """Returns the products of whose differences the components of a x b consist."""
         return np.roll(a, -1, 1) * np.roll(b, -2, 1), np.roll(a, -2, 1) * np.roll(b, -1, 1)
 
-    meets = np.zeros(len(rays), bool)
-    for i, j in ((0, 1), (1, 2), (2, 0)):
-        left, right = products(to[:, i], to[:, j])
+    meets = np.zeros((len(rays), 6), bool)
+    for i in range(3):
+        left, right = products(to[:, i], to[:, (i + 1) % 3])
         volume = ((left - right) * d).sum(axis=1)
         size = ((np.abs(left) + np.abs(right)) * np.abs(d)).sum(axis=1)
-        meets |= is_shared[:, i] & is_shared[:, j] & (np.abs(volume) <= 1e-14 * size)
-    vertex = to[np.arange(len(to)), is_shared.argmax(axis=1)]
-    left, right = products(vertex, d)
-    is_through = (np.abs(left - right) <= 1e-14 * (np.abs(left) + np.abs(right))).all(axis=1)
-    return np.asarray(meets | (is_shared.sum(axis=1) == 1) & is_through)
-
-
-def _volume(corners: Array, direction: Array) -> Fraction:
-    """Returns the exact product (b - a) x (c - a) . direction."""
-    a, b, c = ([Fraction(float(x)) for x in corner] for corner in corners)
-    d = [Fraction(float(x)) for x in direction]
-    u, v = [x - y for x, y in zip(b, a)], [x - y for x, y in zip(c, a)]
-    return sum((d[i] * (u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) for i in range(3)), Fraction(0))
+        meets[:, i] = np.abs(volume) <= 1e-14 * size
+        left, right = products(to[:, i], d)
+        near = np.abs(left - right) <= 1e-14 * (np.abs(left) + np.abs(right))
+        meets[:, 3 + i] = near.all(axis=1)
+    points = corners.reshape(-1, 3) + 0.0  # replaces -0 by 0
+    position = np.unique(points, axis=0, return_inverse=True)[1].reshape(-1, 3)
+    return meets, position[:, [[0, 1], [1, 2], [2, 0], [0, 0], [1, 1], [2, 2]]]
 
 
 def install() -> None:

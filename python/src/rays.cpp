@@ -138,6 +138,27 @@ void fill_all(const Prepared& self, const AllHits& all, const AnyArray& array,
   });
 }
 
+/// Sets facing[i] to the sign of the normal of a triangle, which is a face of the first object,
+/// along the direction of ray i; 0 for triangles that are parallel to the ray.
+void find_facing(const Prepared& self, const AnyArray& array,
+                 const nb::ndarray<const std::int32_t, nb::c_contig>& faces,
+                 const nb::ndarray<std::int8_t, nb::c_contig>& facing, unsigned threads) {
+  const Rays source(array, nb::none(), nb::none(), self.scene.scene().origin);
+  const Primitives& primitives = self.scene.bvh().primitives();
+  const std::int32_t* face = faces.data();
+  std::int8_t* to = facing.data();
+  for_each_block(source.size(), threads, [&](std::size_t first, std::size_t last) {
+    std::vector<Ray> rays;
+    source.get(first, last, rays);
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3 d = rays[i - first].d;
+      const Triangle triangle = *primitives.triangle(static_cast<PrimitiveId>(face[i]));
+      to[i] =
+          static_cast<std::int8_t>(int{shows_front(triangle, -d)} - int{shows_front(triangle, d)});
+    }
+  });
+}
+
 void count_crossings(const Prepared& self, const AnyArray& array, const nb::object& t_min,
                      const nb::object& t_max,
                      const nb::ndarray<std::uint32_t, nb::c_contig>& counts, unsigned threads) {
@@ -168,6 +189,8 @@ void bind_rays(nb::module_& module) {
   type.def("fill_all", &fill_all, nb::arg("hits"), nb::arg("rays"), nb::arg("t_min").none(),
            nb::arg("t_max").none(), nb::arg("outputs"), nb::arg("offsets"), nb::arg("owners"),
            nb::arg("ties"), nb::arg("threads"));
+  type.def("find_facing", &find_facing, nb::arg("rays"), nb::arg("faces"), nb::arg("facing"),
+           nb::arg("threads"));
   type.def("count_crossings", &count_crossings, nb::arg("rays"), nb::arg("t_min").none(),
            nb::arg("t_max").none(), nb::arg("counts"), nb::arg("threads"));
 }

@@ -72,14 +72,14 @@ void nearest(const SolidOf& self, const Points& points, const Output<double>& po
   }
 }
 
-nb::list open_edges(const SolidOf& self) {
+/// The ends of open edges, (n, 2, 3). The array keeps the solid, which owns them.
+nb::object open_edges(const nb::object& self) {
+  const auto& solid = nb::cast<const SolidOf&>(self).solid;
   std::span<const OpenEdge> edges;
-  run_unlocked([&] { edges = self.solid.open_edges(); });
-  nb::list result;
-  for (const OpenEdge& edge : edges)
-    result.append(nb::make_tuple(nb::make_tuple(edge.a.x, edge.a.y, edge.a.z),
-                                 nb::make_tuple(edge.b.x, edge.b.y, edge.b.z)));
-  return result;
+  run_unlocked([&] { edges = solid.open_edges(); });
+  const double* data = edges.empty() ? nullptr : &edges.front().a.x;
+  return nb::cast(nb::ndarray<nb::numpy, const double>(data, {edges.size(), 2, 3}, self,
+                                                       {sizeof(OpenEdge) / sizeof(double), 3, 1}));
 }
 
 }  // namespace

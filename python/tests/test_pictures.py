@@ -306,7 +306,7 @@ def test_wrong_arguments():
 def test_results_of_progress_functions():
     scene = mt.Scene()
     scene.add_sphere()
-    for result in (None, True, np.True_, "text", 7):
+    for result in (None, True, np.True_, "text", 7, 0, ""):
         mt.render(scene, size=(8, 8), aovs=["depth"], progress=lambda share, r=result: r)
     for result in (False, np.False_):
         with pytest.raises(mt.CanceledError):

@@ -377,3 +377,26 @@ def test_overlapping_triangles_that_share_a_vertex_are_all_hit():
     box = trimesh.creation.box()
     double = trimesh.Trimesh(box.vertices, np.vstack([box.faces, box.faces]), process=False)
     assert len(RayMeshIntersector(double).intersects_id([[0.1, 0.2, 5]], [[0, 0, -1]])[0]) == 4
+
+
+def test_many_triangles_that_meet_at_a_vertex_count_once():
+    cone = RayMeshIntersector(trimesh.creation.cone(1, 1, sections=20000))
+    tri, ray = cone.intersects_id([[0, 0, 5]] * 3, [[0, 0, -1]] * 3)
+    assert ray.tolist() == [0, 0, 1, 1, 2, 2]
+    assert tri[:2].tolist() == tri[2:4].tolist() == tri[4:].tolist()
+
+
+def test_rays_in_the_plane_of_many_triangles_miss_them():
+    x, y = np.meshgrid(np.arange(201.0), np.arange(201.0))
+    corners = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+    low = (np.arange(200)[:, None] * 201 + np.arange(200)).ravel()
+    squares = np.stack([low, low + 1, low + 202, low, low + 202, low + 201], axis=1)
+    plane = RayMeshIntersector(trimesh.Trimesh(corners, squares.reshape(-1, 3), process=False))
+    origins = np.stack([np.full(100, -1.0), np.linspace(0.1, 199.9, 100), np.zeros(100)], axis=1)
+    assert not plane.intersects_any(origins, [[1, 0, 0]] * 100).any()
+
+
+def test_arguments_in_the_order_of_the_engine_for_embree_are_refused():
+    box = RayMeshIntersector(trimesh.creation.box())
+    with pytest.raises(TypeError, match="return_locations, multiple_hits, max_hits"):
+        box.intersects_id([[0.1, 0.2, 5]], [[0, 0, -1]], True, 20, True)

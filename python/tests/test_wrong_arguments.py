@@ -141,8 +141,9 @@ def test_masked_arrays(prepared):
         prepared.occluded(rays)
     with pytest.raises(ValueError, match="^vertices must not have masked values"):
         mesh(vertices=np.ma.masked_array(np.eye(3), mask=np.eye(3) > 0))
-    with pytest.raises(ValueError, match="^rays must not have masked values"):
-        prepared.occluded(list(rays))
+    for nested in (list(rays), [list(rays)], [[[np.ma.masked] * 6]]):
+        with pytest.raises(ValueError, match="^rays must not have masked values"):
+            prepared.occluded(nested)
     assert prepared.occluded(np.ma.masked_array(RAYS)).tolist() == [True]
 
 

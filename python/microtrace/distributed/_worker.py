@@ -91,9 +91,11 @@ def broadcast(client: Client, content: Any) -> Iterator[Job]:
 
 
 def require_synchronous(client: Client) -> None:
-    """Raises TypeError for anything but a synchronous client."""
+    """Raises TypeError for anything but a synchronous client, and ValueError for a closed one."""
     if not isinstance(client, Client) or client.asynchronous:
         raise TypeError(f"expected a synchronous distributed.Client, not {client!r}")
+    if client.status in ("closing", "closed"):
+        raise ValueError("the client is closed")
 
 
 class Broadcast(WorkerPlugin):
@@ -176,18 +178,19 @@ def temporary_folder(parent: str) -> str:
     return tempfile.mkdtemp(prefix="microtrace-", dir=parent)
 
 
-def renamed(diagnostic: Diagnostic, copies: Path) -> Diagnostic:
-    """Names a file of the client instead of its copy below the folder `copies`."""
+def renamed(diagnostic: Diagnostic, copies: Path, original: str = "") -> Diagnostic:
+    """Names a file of the client, below the folder `original`, instead of its copy below the folder
+    `copies`."""
     names = ("file", "message", "text")
-    texts = {name: getattr(diagnostic, name).replace(str(copies), "") for name in names}
+    texts = {name: getattr(diagnostic, name).replace(str(copies), original) for name in names}
     return replace(diagnostic, **texts)
 
 
 @contextmanager
-def client_names(copies: Path) -> Iterator[None]:
+def client_names(copies: Path, original: str = "") -> Iterator[None]:
     """Lets errors name the client's files, as renamed() does."""
     try:
         yield
     except Error as error:
-        set_diagnostic(error, renamed(error.diagnostic, copies))
+        set_diagnostic(error, renamed(error.diagnostic, copies, original))
         raise

@@ -211,7 +211,10 @@ def dataset(
     for option in more:
         if option.partition("=")[0] in _TAKEN:
             raise ValueError(f"{option}: use the arguments url, views and formats instead")
-    words = [_path(scene, "scene"), "--formats=" + ",".join(_words(formats, "formats"))]
+    kinds = _words(formats, "formats")
+    if not kinds:
+        raise ValueError("formats must not be empty")
+    words = [_path(scene, "scene"), "--formats=" + ",".join(kinds)]
     words += [*more, "--output=."]
     if views is not None:
         words.append(f"--views={_path(views, 'views')}")
@@ -276,7 +279,8 @@ def _create(core: _core.Dataset, store: Store) -> tuple[bytes, bool]:
         elif not store.is_empty():
             message = f"{store.url}: contains files that are not a data set; name another folder"
             raise error_of(2, Diagnostic(store.url, 0, 0, "", message, message))
-        core.create(folder)
+        with client_names(folder, store.url):
+            core.create(folder)
         description = (folder / "dataset.json").read_bytes()
         if known is None:
             store.upload(folder, ["dataset.json"])
