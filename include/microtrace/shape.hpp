@@ -94,8 +94,10 @@ struct Mesh {
   Array<Vec3> positions;  ///< in scene coordinates, or in the mesh's own space if it is placed
   /// Indices into positions. Vertices are counterclockwise as seen from the front.
   Array<std::array<std::uint32_t, 3>> triangles;
-  Array<Vec3> normals{};   ///< on the front side; unit length or zero
-  Array<Vec4> tangents{};  ///< xyz: unit tangent t; w is 1 or -1: bitangent = w (n x t)
+  Array<Vec3> normals{};  ///< on the front side; unit length or zero
+  /// xyz: unit tangent t; w is 1 or -1: bitangent = w (n x t). A PreparedScene generates them if
+  /// the material needs them, as docs/gltf.md describes for glTF assets.
+  Array<Vec4> tangents{};
   /// Sets of texture coordinates; a set may be empty. (0, 0) is the upper left corner of the image,
   /// and v points down.
   ShortVector<Array<Vec2>> uv_sets{};

@@ -23,7 +23,9 @@ class Mesh(Brief):
     vertices: npt.ArrayLike  #: (V, 3), world space, or the mesh's own if Object.placement is set
     faces: npt.ArrayLike  #: (F, 3) integers, counterclockwise as seen from the front
     normals: npt.ArrayLike | None = None  #: (V, 3), unit length or zero; None for flat shading
-    tangents: npt.ArrayLike | None = None  #: (V, 4): unit tangent, and handedness 1 or -1
+    #: (V, 4): unit tangent, and handedness 1 or -1. Default: prepare() generates them if the
+    #: material has a normal map or anisotropy, and the mesh has its texture coordinates.
+    tangents: npt.ArrayLike | None = None
     uv: Sequence[npt.ArrayLike] = ()  #: sets of (V, 2); (0, 0) is the upper left corner of an image
     #: (V, 4), linear Rec. 709 and alpha, in [0, 1]. Scene.add_mesh also takes 8-bit sRGB integers.
     colors: npt.ArrayLike | None = None

@@ -1,5 +1,6 @@
 #include "float_environment.hpp"
 #include "render/prepared/content.hpp"
+#include "scene/mesh/missing_tangents.hpp"
 #include "scene/validate/check_indices.hpp"
 
 #include <microtrace/prepared_scene.hpp>
@@ -28,14 +29,20 @@ PreparedScene::PreparedScene(Scene scene, PrepareOptions options)
 
 PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, PrepareOptions options) {
   check_indices(*scene);
+  MemoryAccount memory(options.memory);
+  {
+    const MemoryScope scope(memory);
+    const FloatEnvironment environment;
+    scene = with_tangents(std::move(scene));
+  }
   auto tables = tables_for(*scene, options.tables.get());
   BvhOptions tree{.fast_build = options.fast_build,
                   .threads = options.threads != 0 ? options.threads : default_threads(),
                   .previous = options.tables ? options.tables->tree() : nullptr,
                   .max_cost_growth = options.max_cost_growth};
   options.tables.reset();
-  content_ = std::make_shared<const Content>(std::move(scene), std::move(tree), tables,
-                                             MemoryAccount(options.memory));
+  content_ =
+      std::make_shared<const Content>(std::move(scene), std::move(tree), tables, std::move(memory));
   // Pictures of a scene with points or line segments have trees of their own.
   if (!has_segments(content_->scene())) tables->set_tree(content_->bvh().tree());
 }

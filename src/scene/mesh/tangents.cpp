@@ -1,10 +1,14 @@
 #include "scene/mesh/tangents.hpp"
 
+#include "base/memory_account.hpp"
 #include "scene/mesh/tangent_groups.hpp"
+
+#include <microtrace/error.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <tuple>
 
@@ -100,7 +104,23 @@ std::vector<Vec4> flat_tangents(const Mesh& mesh, std::size_t uv_set) {
 
 }  // namespace
 
+std::optional<std::uint32_t> tangent_set(const Material& material) {
+  if (material.normal_texture) return material.normal_texture->uv_set;
+  if (material.clearcoat && material.clearcoat->normal_texture) {
+    return material.clearcoat->normal_texture->uv_set;
+  }
+  if (!material.anisotropy) return std::nullopt;
+  return material.anisotropy->texture ? material.anisotropy->texture->uv_set : 0;
+}
+
 std::vector<std::uint32_t> make_tangents(Mesh& mesh, std::size_t uv_set) {
+  if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max() / 3)
+    throw Error(ErrorKind::limit, "", "a mesh has too many triangles for generating tangents");
+  // Generating tangents may add three vertices per triangle.
+  constexpr std::size_t kBytesOfWork = 300, kBytesOfTangents = sizeof(Vec4) / 2;
+  const MemoryAccount work =
+      temporary_memory(mesh.triangles.size() * kBytesOfWork, "making tangents");
+  take_memory(mesh.triangles.size() * kBytesOfTangents, "the tangents of meshes");
   if (mesh.normals.empty()) return split(mesh, flat_tangents(mesh, uv_set));
   return split(mesh, corner_tangents({.positions = mesh.positions,
                                       .normals = mesh.normals,

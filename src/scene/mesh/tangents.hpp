@@ -1,13 +1,19 @@
 #pragma once
 /// Generates tangents for meshes without them.
 
+#include <microtrace/material.hpp>
 #include <microtrace/shape.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace microtrace {
+
+/// Returns the set of texture coordinates that defines the material's tangents, if the material
+/// needs tangents.
+[[nodiscard]] std::optional<std::uint32_t> tangent_set(const Material& material);
 
 /// Gives a mesh the tangents that MikkTSpace defines for one of its sets of texture coordinates.
 /// The set must exist. MikkTSpace is the standard for baked normal maps (M. Mikkelsen, Simulation
@@ -16,7 +22,8 @@ namespace microtrace {
 /// as flat. Vertices are split where triangles with different tangents meet. Triangles with
 /// degenerate texture coordinates use their neighbors' tangents, or any direction perpendicular to
 /// the normal if they have no neighbors. Returns each new vertex's original index, in nondecreasing
-/// order.
+/// order. Charges the memory to memory_account(). Throws Error (limit) if the memory exceeds its
+/// limit, or for more than 2^32 corners.
 std::vector<std::uint32_t> make_tangents(Mesh& mesh, std::size_t uv_set);
 
 }  // namespace microtrace

@@ -19,17 +19,6 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Returns the texture coordinate set that defines the material's tangents, if the material needs
-/// tangents.
-std::optional<std::uint32_t> tangent_set(const Material& material) {
-  if (material.normal_texture) return material.normal_texture->uv_set;
-  if (material.clearcoat && material.clearcoat->normal_texture) {
-    return material.clearcoat->normal_texture->uv_set;
-  }
-  if (!material.anisotropy) return std::nullopt;
-  return material.anisotropy->texture ? material.anisotropy->texture->uv_set : 0;
-}
-
 std::size_t bytes_of_topology(Model::Mode mode, std::size_t vertices) {
   const bool one_for_each = mode != Model::Mode::triangles && mode != Model::Mode::lines;
   return vertices * sizeof(std::uint32_t) * (one_for_each ? 3 : 1);
@@ -135,12 +124,6 @@ class SurfaceMaker {
     const std::optional<std::uint32_t> set = tangent_set(materials_[surface.material]);
     if (!set || !mesh.tangents.empty() || mesh.triangles.empty()) return;
     if (*set >= mesh.uv_sets.size() || mesh.uv_sets[*set].empty()) return;
-    // Memory for generating tangents, and for the result: generating may add three vertices per
-    // triangle.
-    constexpr std::size_t kBytesOfWork = 300, kBytesOfTangents = sizeof(Vec4) / 2;
-    const MemoryAccount work =
-        temporary_memory(mesh.triangles.size() * kBytesOfWork, "making tangents");
-    take_memory(mesh.triangles.size() * kBytesOfTangents, "the tangents of meshes");
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t i : make_tangents(mesh, *set)) vertices.push_back(surface.vertices[i]);
     surface.vertices = std::move(vertices);
