@@ -62,8 +62,10 @@ std::vector<OpenEdge> open_edges(const Primitives& primitives, Selection selecti
   const Scene& scene = primitives.scene();
   std::size_t most_vertices = 0, most_sides = 0;
   const auto for_each_object = [&](const auto& f) {
-    for (std::size_t i = 0; i < scene.objects.size(); ++i)
-      if (selection.contains(primitives.first_id_of(i))) std::visit(f, scene.objects[i].shape);
+    for (const ObjectRun& run : scene.objects.runs()) {
+      for (std::size_t i = run.begin; i < run.begin + run.count; ++i)
+        if (selection.contains(primitives.first_id_of(i))) std::visit(f, run.first->shape);
+    }
   };
   for_each_object([&]<class AnyShape>(const AnyShape& shape) {
     if constexpr (std::is_same_v<AnyShape, Mesh>) {

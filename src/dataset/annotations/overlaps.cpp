@@ -33,16 +33,18 @@ std::vector<PixelRect> parts_of_objects(const Scene& scene, const Camera& camera
   std::vector<PixelRect> parts;
   parts.reserve(scene.objects.size());
   ChunkedMeshes chunks;
-  for (const Object& object : scene.objects) {
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh != nullptr && mesh->placement) {
-      const std::optional<Extent> extent = extent_of(object.shape, chunks);
-      parts.push_back(
-          extent ? occupied_part(camera, rays, Vec3(extent->low), Vec3(extent->high), window)
-                 : PixelRect{});
-      continue;
+  for (const ObjectRun& run : scene.objects.runs()) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      if (run.mesh(i).placement != nullptr) {
+        const std::optional<Extent> extent = extent_of({run, i}, chunks);
+        parts.push_back(
+            extent ? occupied_part(camera, rays, Vec3(extent->low), Vec3(extent->high), window)
+                   : PixelRect{});
+        continue;
+      }
+      const auto* mesh = std::get_if<Mesh>(&run.first->shape);
+      parts.push_back(mesh == nullptr ? window : part_of(*mesh, camera, rays, window));
     }
-    parts.push_back(mesh == nullptr ? window : part_of(*mesh, camera, rays, window));
   }
   return parts;
 }

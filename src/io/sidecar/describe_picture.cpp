@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <string_view>
 
 #include <glm/matrix.hpp>
@@ -108,13 +109,15 @@ std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origi
   return text += "\n  }";
 }
 
-std::string object_text(const Object& object, std::size_t id, const io::SeenPixels* seen,
-                        const DVec3& origin, ChunkedMeshes& chunks) {
-  std::string text = "{\"id\": " + std::to_string(id);
-  text.append(", \"name\": ").append(quoted(object.name.str()));
-  text.append(", \"type\": \"").append(type_name(object.shape)).append("\"");
-  text.append(", \"material\": ")
-      .append(std::to_string(object.material ? *object.material + 1 : 0));
+/// Describes the object with this index.
+std::string object_text(const Scene& scene, std::size_t index, const io::SeenPixels* seen,
+                        ChunkedMeshes& chunks) {
+  const ObjectRun run = scene.objects.run(scene.objects.run_of(index));
+  const std::optional<std::uint32_t> material = run.first->material;
+  std::string text = "{\"id\": " + std::to_string(index + 1);
+  text.append(", \"name\": ").append(quoted(scene.objects.name(index).str()));
+  text.append(", \"type\": \"").append(type_name(run.first->shape)).append("\"");
+  text.append(", \"material\": ").append(std::to_string(material ? *material + 1 : 0));
   if (seen != nullptr) {
     const PixelRect& box = seen->box;
     text.append(", \"visible_pixels\": ").append(std::to_string(seen->count));
@@ -122,23 +125,26 @@ std::string object_text(const Object& object, std::size_t id, const io::SeenPixe
     text.append(seen->count > 0 ? array({box.x0, box.y0, box.x1, box.y1}) : "null");
   }
   text.append(", \"world_box\": ");
-  if (const auto extent = extent_of(object.shape, chunks)) {
-    text.append("{\"min\": ").append(array(origin + DVec3(extent->low)));
-    text.append(", \"max\": ").append(array(origin + DVec3(extent->high))).append("}");
+  if (const auto extent = extent_of({run, index - run.begin}, chunks)) {
+    text.append("{\"min\": ").append(array(scene.origin + extent->low));
+    text.append(", \"max\": ").append(array(scene.origin + extent->high)).append("}");
   } else {
     text.append("null");
   }
   return text += '}';
 }
 
-/// Returns a JSON array with one item per line.
+/// Appends a JSON array with one item per line.
 template <class Item>
-std::string list(std::size_t count, Item&& item) {
-  std::string text = "[";
+void append_list(std::string& text, std::size_t count, Item&& item) {
+  // There may be millions of items. Without this, the text would be copied when it grows.
+  constexpr std::size_t kBytesOfItem = 300;
+  text.reserve(text.size() + count * kBytesOfItem);
+  text.append("[");
   for (std::size_t i = 0; i < count; ++i) {
     text.append(i > 0 ? ",\n    " : "\n    ").append(item(i));
   }
-  return text.append(count > 0 ? "\n  ]" : "]");
+  text.append(count > 0 ? "\n  ]" : "]");
 }
 
 }  // namespace
@@ -163,15 +169,16 @@ std::string describe_picture(const Scene& scene, const Camera& camera, const Fil
   text.append(",\n  \"camera\": ").append(camera_text(camera, film.whole, scene.origin));
   text.append(",\n  \"objects\": ");
   ChunkedMeshes chunks;
-  text.append(list(scene.objects.size(), [&](std::size_t i) {
-    return object_text(scene.objects[i], i + 1, seen ? &(*seen)[i] : nullptr, scene.origin, chunks);
-  }));
+  append_list(text, scene.objects.size(), [&](std::size_t i) {
+    return object_text(scene, i, seen ? &(*seen)[i] : nullptr, chunks);
+  });
   text.append(",\n  \"materials\": ");
-  text.append(list(scene.materials.size(), [&](std::size_t i) {
+  append_list(text, scene.materials.size(), [&](std::size_t i) {
     return "{\"id\": " + std::to_string(i + 1) + ", \"name\": " + quoted(scene.materials[i].name) +
            "}";
-  }));
-  return text += "\n}\n";
+  });
+  text += "\n}\n";
+  return text;
 }
 
 }  // namespace microtrace

@@ -60,20 +60,23 @@ LampPixels::LampPixels(const Scene& scene, const RayGenerator& camera, const Pix
     return static_cast<std::size_t>(std::clamp<double>(std::floor(low) - first, 0, size));
   };
   ChunkedMeshes chunks;
-  for (const Object& object : scene.objects) {
-    if (!is_lamp(material_of(scene, object))) continue;
-    const Part part = is_pinhole ? part_of(object.shape, camera, chunks) : kEverywhere;
+  const auto add = [&](const Part& part) {
     // A sample is at most 1.5 pixels from the middle of its pixel.
     constexpr double kReach = 2;
     const std::size_t x0 = begin_of(part.low.x - kReach, window.x0, width),
                       y0 = begin_of(part.low.y - kReach, window.y0, height),
                       x1 = begin_of(part.high.x + kReach + 1, window.x0, width),
                       y1 = begin_of(part.high.y + kReach + 1, window.y0, height);
-    if (x0 >= x1 || y0 >= y1) continue;
+    if (x0 >= x1 || y0 >= y1) return;
     ++differences[y0 * columns + x0];
     --differences[y0 * columns + x1];
     --differences[y1 * columns + x0];
     ++differences[y1 * columns + x1];
+  };
+  for (const ObjectRun& run : scene.objects.runs()) {
+    if (!is_lamp(material_of(scene, *run.first))) continue;
+    for (std::size_t i = 0; i < run.count; ++i)
+      add(is_pinhole ? part_of({run, i}, camera, chunks) : kEverywhere);
   }
   is_in_.resize(std::size_t{width} * height);
   std::vector<std::int32_t> above(columns);
