@@ -80,6 +80,8 @@ class MICROTRACE_EXPORT Bvh {
   /// - If `ray` runs within a flat surface, w lies on that surface, and the origin may be on either
   ///   side of it.
   /// - The segment may cross triangles of zero area.
+  /// - If `ray` only touches a sphere or quadric, both points are outside of it; a new ray to the
+  ///   inside starts inside.
   ///
   /// Returns nothing if no such float32 point exists because the surrounding surfaces are too close
   /// together. The result does not depend on BvhOptions, and no coordinate is -0. The new ray may
@@ -100,10 +102,10 @@ class MICROTRACE_EXPORT Bvh {
   void spawn_origins(std::span<const Spawn> spawns, std::span<std::optional<Vec3>> origins) const;
 
   /// Returns true if no surface meets any segment between two points that differ from p by at most
-  /// one float32 step in each coordinate. A point on a ray may therefore be rounded to p without
-  /// crossing a surface. Exact for triangles. Uses float64 with error bounds for other shapes, so
-  /// it may return false next to one that meets no such segment. The result does not depend on
-  /// BvhOptions.
+  /// one float32 step in each coordinate; the step of a power of two is the one above it. A point
+  /// on a ray may therefore be rounded to p without crossing a surface. Exact for triangles. Uses
+  /// float64 with error bounds for other shapes, so it may return false next to one that meets no
+  /// such segment. The result does not depend on BvhOptions.
   [[nodiscard]] bool is_clear(const Vec3& p) const;
 
   /// Returns true if the ray hits anything. Faster than intersect.

@@ -25,7 +25,8 @@ struct TrianglePoint {
 /// The surface at a hit. Valid during the lifetime of the scene. The values are computed in float64
 /// by + - * / and sqrt, so their bits are the same on every machine. The error of positions is
 /// about 1e-15 times the magnitude of the coordinates, divided by the cosine of the angle to the
-/// normal; quadrics whose coefficients cancel have greater errors.
+/// normal and, for long thin triangles, by the ratio of the width to the length; quadrics whose
+/// coefficients cancel have greater errors.
 /// Where a ray lies in the plane of a triangle, touches a surface or nearly does, they are computed
 /// exactly and rounded once, like the side at which the ray arrives.
 struct MICROTRACE_EXPORT SurfaceInteraction {

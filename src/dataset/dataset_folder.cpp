@@ -100,6 +100,17 @@ bool is_unused(const fs::path& folder) {
   });
 }
 
+/// Throws Error (usage) if the folder contains links to files, through which the data set would
+/// overwrite other files.
+void refuse_links(const fs::path& folder) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; at != end; at.increment(error)) {
+    if (!at->is_symlink(error) || at->is_directory(error)) continue;
+    throw Error(ErrorKind::usage, at->path().string(),
+                "is a link to a file that the data set would overwrite; remove the link");
+  }
+}
+
 }  // namespace
 
 DatasetFolder::DatasetFolder(fs::path path, const DatasetIdentity& identity)
@@ -120,6 +131,7 @@ DatasetFolder::DatasetFolder(fs::path path, const DatasetIdentity& identity)
     }
   }
   create_folder(path_ / "records");
+  refuse_links(path_);
 }
 
 DatasetFolder::DatasetFolder(fs::path path) : path_(std::move(path)) {

@@ -6,10 +6,6 @@
 
 namespace microtrace::exact {
 
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 bool is_valid(const Ray& ray) {
   return is_finite(ray.o) && is_finite(ray.d) && (ray.d.x != 0 || ray.d.y != 0 || ray.d.z != 0) &&
          std::isfinite(ray.t_min) && 0 <= ray.t_min && ray.t_min <= ray.t_max;

@@ -2,6 +2,7 @@
 /// Functions that several shapes share: tests whether numbers are finite and whether they lie in
 /// the ray's closed interval, and the roots of a quadratic polynomial.
 
+#include "base/finite.hpp"
 #include "exact/numbers/root.hpp"
 
 #include <microtrace/ray.hpp>
@@ -9,8 +10,6 @@
 #include <optional>
 
 namespace microtrace::exact {
-
-[[nodiscard]] bool is_finite(const Vec3& v);
 
 /// Returns true if t_min <= t <= t_max.
 [[nodiscard]] bool in_range(const Root& t, const Ray& ray);

@@ -60,18 +60,6 @@ std::optional<int> descriptor_number(const fs::path& path) {
   return number;
 }
 
-/// Follows symbolic links in the last component of the path. The file at the end of the links need
-/// not exist.
-fs::path follow_links(fs::path path) {
-  constexpr int kMaxLinks = 40;  // the limit of Linux
-  std::error_code ignored;
-  for (int links = 0; links < kMaxLinks; ++links) {
-    if (descriptor_number(path) || !fs::is_symlink(path, ignored)) return path;
-    path = path.parent_path() / fs::read_symlink(path, ignored);
-  }
-  return path;
-}
-
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
@@ -114,6 +102,16 @@ std::optional<mode_t> check_resolved(const fs::path& named, const fs::path& targ
 }
 
 }  // namespace
+
+fs::path follow_links(fs::path path) {
+  constexpr int kMaxLinks = 40;  // the limit of Linux
+  std::error_code ignored;
+  for (int links = 0; links < kMaxLinks; ++links) {
+    if (descriptor_number(path) || !fs::is_symlink(path, ignored)) return path;
+    path = path.parent_path() / fs::read_symlink(path, ignored);
+  }
+  return path;
+}
 
 AtomicFile::AtomicFile(const fs::path& target) : named_(target), target_(follow_links(target)) {
   if (const std::optional<int> number = descriptor_number(target_)) {

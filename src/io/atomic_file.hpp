@@ -47,6 +47,10 @@ class AtomicFile {
   int slot_ = -1;  ///< slot in the list of unfinished files; -1 if not listed
 };
 
+/// Follows symbolic links in the last component of the path, as AtomicFile does. The file at the
+/// end of the links need not exist.
+[[nodiscard]] std::filesystem::path follow_links(std::filesystem::path path);
+
 /// Throws Error(io) if creating an AtomicFile for this target would fail now. Has no side effects.
 void check_target(const std::filesystem::path& target);
 

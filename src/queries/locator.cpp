@@ -88,7 +88,7 @@ std::optional<Location> Locator::locate_along(const Vec3& p, const Vec3& d, Poll
 }
 
 Location Locator::locate(const Vec3& p, Poll& poll) {
-  if (!exact::is_finite(p)) return Location::outside;
+  if (!is_finite(p)) return Location::outside;
   for (std::uint64_t attempt = 0;; ++attempt) {
     if (const auto location =
             locate_along(p, crossing_direction(target_.tree.bounds, p, attempt), poll))

@@ -114,7 +114,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
 }
 
 std::optional<NearestPoint> NearestSearch::nearest(const Vec3& p, Poll& poll) {
-  if (!exact::is_finite(p)) return std::nullopt;
+  if (!is_finite(p)) return std::nullopt;
   best_.reset();
   exact_best_.reset();
   limit_ = kInfinitelyFar;

@@ -81,8 +81,7 @@ std::vector<OpenEdge> open_edges(const Primitives& primitives, Selection selecti
   for (std::uint64_t number = selection.first; number < selection.end; ++number) {
     const auto id = static_cast<PrimitiveId>(number);
     const auto t = primitives.triangle(id);
-    if (!t || !exact::is_finite(t->a) || !exact::is_finite(t->b) || !exact::is_finite(t->c))
-      continue;
+    if (!t || !is_finite(t->a) || !is_finite(t->b) || !is_finite(t->c)) continue;
     const std::array<std::uint32_t, 3> corners{vertices.number(t->a), vertices.number(t->b),
                                                vertices.number(t->c)};
     for (std::uint32_t i = 0; i < 3; ++i) {

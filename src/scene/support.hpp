@@ -1,6 +1,7 @@
 #pragma once
 /// Support functions and bounds of shapes.
 
+#include "base/finite.hpp"
 #include "scene/mesh/mesh_chunks.hpp"
 
 #include <microtrace/math.hpp>
@@ -17,10 +18,6 @@ namespace microtrace {
 
 struct ObjectRun;
 struct Scene;
-
-[[nodiscard]] inline bool is_finite(const Vec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// Support functions. They return the maximum of u . p over a shape's points p, for u of any
 /// length.

@@ -131,9 +131,10 @@ class Interaction {
   SurfaceInteraction operator()(const Triangle& s) const {
     const TriangleCorners<1> t = corners_of(s);
     const auto inside = barycentrics_of<1>(t, o_, d_);
-    const DVec3 p = inside.exists ? weighted(inside.v, t.a, t.b, t.c) : exact_point(s);
-    const DVec3 w = inside.exists ? inside.v : barycentrics_at(t, p);
-    SurfaceInteraction result = at(p, direction_or(area_vector<1>(t), facing()));
+    SurfaceInteraction result = inside.exists ? at(weighted(inside.v, t.a, t.b, t.c),
+                                                   direction_or(area_vector<1>(t), facing()))
+                                              : exactly(s);
+    const DVec3 w = inside.exists ? inside.v : barycentrics_at(t, result.p);
     result.front = shows_front(s, ray_.d);
     const PlacedMesh mesh = primitives_.object_of(hit_.id).mesh;
     result.triangle = TrianglePoint{.barycentrics = w, .mesh = mesh, .corners = {}};
@@ -155,8 +156,8 @@ class Interaction {
     bool enters;
   };
 
-  /// The hit with a sphere; nothing if the ray nearly touches it, if the parameter exceeds float32,
-  /// or if float64 can't tell which of the roots is the hit.
+  /// The hit with a sphere; nothing if the ray nearly touches it, if it is extremely far away, if
+  /// the parameter exceeds float32, or if float64 can't tell which of the roots is the hit.
   [[nodiscard]] std::optional<SphereHit> hit_of(const Sphere& s) const {
     if (!std::isfinite(hit_.t)) return std::nullopt;
     const DVec3 from_center = o_ - DVec3(s.center), across = glm::cross(from_center, d_);
@@ -166,6 +167,7 @@ class Interaction {
     const double square = glm::dot(from_center, from_center);
     if (!(discriminant > 0 && discriminant * discriminant > 0x1p-60 * square * offset * a))
       return std::nullopt;
+    if (r * r < 0x1p-60 * square) return std::nullopt;  // the normal would have a large error
     const double root = std::sqrt(discriminant), lo = (-b - root) / a, hi = (-b + root) / a;
     const double tolerance = 0x1p-22 * hit_.t + 0x1p-44 * std::sqrt(square / a);
     const bool is_near_lo = std::abs(lo - hit_.t) <= tolerance;
@@ -198,14 +200,7 @@ class Interaction {
     return result;
   }
 
-  /// The point of the hit by exact arithmetic, which is slow.
-  template <class AnyShape>
-  [[nodiscard]] DVec3 exact_point(const AnyShape& s) const {
-    const auto t = exact::first_hit(s, ray_);
-    return t ? exact::round_point_to_double(ray_, *t) : o_ + double{hit_.t} * d_;
-  }
-
-  /// The surface by exact arithmetic.
+  /// The surface by exact arithmetic, which is slow.
   template <class AnyShape>
   [[nodiscard]] SurfaceInteraction exactly(const AnyShape& s) const {
     const auto t = exact::first_hit(s, ray_);

@@ -456,7 +456,7 @@ class CommandLine(ProgramTest):
                                    (["-o", "--size=8x6"], "error: -o expects a value, but is followed by --size=8x6\n"),
                                    (["--output=--size"], "error: --size: has no extension"),
                                    (["-o", ""], "error: --output: expects a value, is empty\n"),
-                                   (["--camera="], "error: --camera expects a value\n"),
+                                   (["--camera="], "error: --camera: expects a value, is empty\n"),
                                    (["--evil\x1b[31m"], "error: unknown option --evil\\x1b[31m\n")):
             result = self.run_program(SCENE, *arguments)
             self.assertEqual((result.returncode, result.stdout), (2, b""))

@@ -294,6 +294,12 @@ class Dataset(ProgramTest):
                                ([*options, "--background", "#ff0000"], "other options"),
                                ([*options, "--formats", "exr"], "other options")):
             self.assertIn(reason, self.dataset(*others, code=2))
+        link = self.folder / "out/000001.png"
+        link.unlink()
+        link.symlink_to(SCENE)
+        self.assertIn("is a link", self.dataset(*options, code=2))
+        link.unlink()
+        self.dataset(*options)
         copy = self.folder / SCENE.name
         copy.write_text(SCENE.read_text() + "\n")
         self.assertIn("another content", self.dataset(*options, scene=copy, code=2))

@@ -137,6 +137,9 @@ class Files(ProgramTest):
             self.assert_refused(2, *draw, "--sidecar", path, says=["--output", "--sidecar"])
             self.assert_refused(2, *draw, "--checkpoint", path, says=["--output", "--checkpoint"])
         self.assert_refused(2, *draw, "--checkpoint", "c", "--sidecar", "./c", says=["--sidecar", "--checkpoint"])
+        os.symlink("f_0001.ppm", self.folder / "f_0000.ppm")
+        draw[-1] = "f_%04d.ppm"
+        self.assert_refused(2, *draw, "--frames", "0:1", says=["f_0001.ppm", "--output"])
 
     # Files outside the scene's folder are not read
 

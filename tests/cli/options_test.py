@@ -46,17 +46,19 @@ class Options(ProgramTest):
             default = option.default.split(";")[0]
             if not re.fullmatch(r"[a-z0-9.,:-]+", default) or default == "none":
                 continue
-            with self.subTest(option.name, default=default):
-                count += 1
-                context = CONTEXT.get(option.name, [])
-                picture = "%d.ppm" if "--frames" in context else "3.ppm"
-                pictures = []
-                for more in ([], [option.name, default]):
-                    result = self.run_program(*LIGHT, "--spp", "2", *context, *more, "-o", picture)
-                    self.assertEqual(result.returncode, 0, result.stderr)
-                    pictures.append((self.folder / "3.ppm").read_bytes())
-                self.assertEqual(pictures[0], pictures[1])
-        self.assertGreater(count, 10)
+            # The second scene has settings of its own, which options without values don't change.
+            for scene in (SCENE, SOURCE / "scenes/sky.json"):
+                with self.subTest(option.name, default=default, scene=scene.name):
+                    count += 1
+                    context = CONTEXT.get(option.name, [])
+                    picture = "%d.ppm" if "--frames" in context else "3.ppm"
+                    pictures = []
+                    for more in ([], [option.name, default]):
+                        result = self.run_program(scene, *LIGHT[1:], "--spp", "2", *context, *more, "-o", picture)
+                        self.assertEqual(result.returncode, 0, result.stderr)
+                        pictures.append((self.folder / "3.ppm").read_bytes())
+                    self.assertEqual(pictures[0], pictures[1])
+        self.assertGreater(count, 20)
 
     def test_samples_of_different_options_are_not_combined(self):
         self.render(*LIGHT, "--spp", "2", "--checkpoint", "c")

@@ -106,7 +106,7 @@ void check(Random& random, const Ray& ray, const S& shape, SpawnCount& count) {
     ASSERT_FALSE(q.has_value()) << reproduction(ray, shape);
     return;
   }
-  if (direction == Vec3(0) || !exact::is_finite(direction)) {
+  if (direction == Vec3(0) || !is_finite(direction)) {
     ASSERT_FALSE(q.has_value());
     return;
   }

@@ -282,9 +282,9 @@ struct OriginSearch {
 /// finite.
 template <class Surface>
 std::optional<OriginSearch> origin_search(Surface& surface, const Ray& ray, const Vec3& direction) {
-  if (!exact::is_finite(direction) || direction == Vec3(0)) return std::nullopt;
+  if (!is_finite(direction) || direction == Vec3(0)) return std::nullopt;
   const std::optional<Vec3> p = surface.point(ray);
-  if (!p || !exact::is_finite(*p)) return std::nullopt;
+  if (!p || !is_finite(*p)) return std::nullopt;
   const int before = surface.side(ray, -ray.d);
   int side = surface.side(ray, direction);
   if (side == 0) side = before;

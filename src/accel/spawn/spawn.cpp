@@ -17,7 +17,7 @@ std::optional<Vec3> spawn(Surface surface, const Ray& ray, const Vec3& direction
   const std::optional<OriginSearch> start = origin_search(surface, ray, direction);
   if (!start) return std::nullopt;
   Vec3 p = start->p;
-  for (int step = 0; step <= most_steps && exact::is_finite(p); ++step) {
+  for (int step = 0; step <= most_steps && is_finite(p); ++step) {
     if (surface.is_clear(p, direction, start->side)) return p;
     start->step.apply(p);
   }

@@ -181,7 +181,7 @@ std::optional<Vec3> search(Surface surface, const Primitives& primitives, const 
     const auto add = [&](PrimitiveId other) { neighbors.add(other, place); };
     std::for_each(outside.begin(), outside.end(), add);
     if (tree != nullptr) for_each_touching(*tree, place.box, add);
-    for (int step = 0; step <= kSteps && exact::is_finite(q); ++step) {
+    for (int step = 0; step <= kSteps && is_finite(q); ++step) {
       if (surface.is_clear(q, direction, start->side) && neighbors.allow(q)) return q;
       start->step.apply(q);
     }

@@ -40,14 +40,14 @@ constexpr std::array kLightOptions{
            .help =
                "rotation of the environment about the vertical axis, counterclockwise seen from "
                "above",
-           .default_value = "0",
+           .default_value = "the scene's; 0 for --env",
            .samples = Samples::change,
            .set = [](Arguments& a,
                      const OptionValue& value) { a.environment.rotation = value.number(); }},
     Option{.names = "--env-intensity",
            .metavar = "X",
            .help = "factor that multiplies the environment's radiance",
-           .default_value = "1",
+           .default_value = "the scene's; 1 for --env",
            .samples = Samples::change,
            .set =
                [](Arguments& a, const OptionValue& value) {

@@ -101,7 +101,8 @@ class Parser {
 /// Returns true if the option has the value that it has without being given. Descriptions of
 /// defaults are no values.
 bool is_default(const Given& given) {
-  return given.values.size() == 1 && given.values.front() == given.option->default_value;
+  const std::string_view usual = given.option->default_value;
+  return !usual.empty() && given.values.size() == 1 && given.values.front() == usual;
 }
 
 std::string identity_of(const std::vector<Given>& all) {

@@ -1,5 +1,7 @@
 #include "cli/pictures/output_paths.hpp"
 
+#include "io/atomic_file.hpp"
+
 #include <microtrace/error.hpp>
 
 #include <cstdint>
@@ -33,7 +35,8 @@ void check_frames_apart(const Sequence& sequence) {
   std::unordered_map<std::string, Use> uses;
   const auto add = [&](const Use& use, const std::filesystem::path& path) {
     if (path.empty() || path == "-") return;
-    const std::string normal = std::filesystem::absolute(path).lexically_normal().string();
+    const std::filesystem::path target = io::follow_links(std::filesystem::absolute(path));
+    const std::string normal = target.lexically_normal().string();
     const auto [at, is_new] = uses.try_emplace(normal, use);
     if (is_new) return;
     const Use& other = at->second;

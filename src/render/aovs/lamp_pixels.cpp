@@ -50,7 +50,7 @@ Part part_of(const PlacedShape& shape, const RayGenerator& camera, ChunkedMeshes
 
 LampPixels::LampPixels(const Scene& scene, const RayGenerator& camera, const PixelRect& window)
     : window_(window) {
-  const auto [width, height] = window.size();
+  const std::uint32_t width = window.size().width, height = window.size().height;
   const bool is_pinhole =
       !camera.has_lens() && camera.frustum(window.x0, window.y0, window.x0 + 1, window.y0 + 1);
   // The number of parts that contain a pixel is the sum of the differences above and left of it.

@@ -1,15 +1,15 @@
 #include "scene/mesh/missing_tangents.hpp"
 
+#include "base/finite.hpp"
 #include "scene/mesh/tangents.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include <glm/geometric.hpp>
 
 namespace microtrace {
 namespace {
@@ -22,10 +22,7 @@ bool is_loaded(const Scene& scene, const TextureUse& use) {
 }
 
 bool are_finite(const auto& vectors) {
-  return std::ranges::all_of(vectors, [](const auto& v) {
-    // The product is NaN otherwise.
-    return glm::dot(v, decltype(v * v)(0)) == 0;
-  });
+  return std::ranges::all_of(vectors, [](const auto& v) { return is_finite(v); });
 }
 
 /// Returns the set of texture coordinates from which the object's missing tangents are generated.
@@ -53,11 +50,16 @@ bool lacks_tangents(const Scene& scene) {
   return false;
 }
 
-/// The addresses of a mesh's arrays, which objects may share.
-std::vector<const void*> addresses_of(const Mesh& mesh) {
-  std::vector<const void*> result{mesh.positions.data(), mesh.triangles.data(), mesh.normals.data(),
-                                  mesh.colors.data(), mesh.segments.data()};
-  for (const auto& set : mesh.uv_sets) result.push_back(set.data());
+/// The addresses and sizes of a mesh's arrays, which objects may share.
+std::vector<std::pair<const void*, std::size_t>> arrays_of(const Mesh& mesh) {
+  std::vector<std::pair<const void*, std::size_t>> result;
+  const auto add = [&](const auto& array) { result.emplace_back(array.data(), array.size()); };
+  add(mesh.positions);
+  add(mesh.triangles);
+  add(mesh.normals);
+  add(mesh.colors);
+  add(mesh.segments);
+  for (const auto& set : mesh.uv_sets) add(set);
   return result;
 }
 
@@ -66,12 +68,12 @@ std::vector<const void*> addresses_of(const Mesh& mesh) {
 std::shared_ptr<const Scene> with_tangents(std::shared_ptr<const Scene> scene) {
   if (!lacks_tangents(*scene)) return scene;
   auto result = std::make_shared<Scene>(*scene);
-  std::map<std::pair<std::uint32_t, std::vector<const void*>>, Mesh> made;
+  std::map<std::pair<std::uint32_t, decltype(arrays_of({}))>, Mesh> made;
   result->objects.edit_runs([&](Object& object) {
     const std::optional<std::uint32_t> set = missing_set(*scene, object);
     if (!set) return;
     auto& mesh = std::get<Mesh>(object.shape);
-    const auto [known, is_new] = made.try_emplace({*set, addresses_of(mesh)}, mesh);
+    const auto [known, is_new] = made.try_emplace({*set, arrays_of(mesh)}, mesh);
     if (is_new) make_tangents(known->second, *set);
     const std::shared_ptr<const Placement> placement = mesh.placement;
     mesh = known->second;

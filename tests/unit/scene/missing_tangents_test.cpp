@@ -99,6 +99,20 @@ TEST(MissingTangents, ObjectsThatShareArraysShareTangents) {
   EXPECT_TRUE(mesh_of(*result, 0).colors.empty());
 }
 
+TEST(MissingTangents, ArraysThatBeginAlikeAreDifferent) {
+  const Mesh mesh = square();
+  Mesh part = mesh, whole = mesh;
+  part.triangles = Array<std::array<std::uint32_t, 3>>::borrow(std::span(mesh.triangles.data(), 1));
+  whole.triangles =
+      Array<std::array<std::uint32_t, 3>>::borrow(std::span(mesh.triangles.data(), 2));
+  for (const bool reversed : {false, true}) {
+    const PreparedScene prepared(scene_of({{.shape = reversed ? whole : part, .material = 0},
+                                           {.shape = reversed ? part : whole, .material = 0}}));
+    EXPECT_EQ(mesh_of(prepared.scene(), reversed ? 0 : 1).triangles.size(), 2U);
+    EXPECT_EQ(mesh_of(prepared.scene(), reversed ? 1 : 0).triangles.size(), 1U);
+  }
+}
+
 TEST(MissingTangents, MemoryIsLimited) {
   MemoryBudget budget(100);
   EXPECT_THROW(

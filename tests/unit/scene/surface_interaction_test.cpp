@@ -244,6 +244,23 @@ TEST(SurfaceInteraction, RaysArriveAtTheNearSidesOfDistantSpheres) {
   EXPECT_GT(hits, 100);
 }
 
+// The normals were computed with rational numbers.
+TEST(SurfaceInteraction, NormalsOfSliversAndTinySpheresAreExact) {
+  const Triangle sliver{{-0.8467972874641418F, 0.9978864192962646F, 0.3872188329696655F},
+                        {6.262633386731236e-17F, 1, -5.072985141433227e-16F},
+                        {1.6646579693711154e-16F, 1, -5.015270433989688e-16F}};
+  const SurfaceInteraction at_sliver =
+      meet(sliver, {.o = {6.262633386731236e-17F, 2, -5.072985141433227e-16F}, .d = {0, -1, 0}});
+  expect_near(at_sliver.n, {0.00027, -0.99999, -0.00487}, 1e-5);
+  EXPECT_FALSE(at_sliver.front);
+  const Sphere tiny{{-0x1.6531f6p-2F, 0x1.cf5cp-5F, -0x1.61e928p-4F}, 0x1.df71ccp-40F};
+  const SurfaceInteraction at_sphere =
+      meet(tiny,
+           {.o = {-0.3488233983516693F, 0.05656242370605469F, 668532224}, .d = {0, 0, -668532224}});
+  EXPECT_TRUE(at_sphere.front);
+  EXPECT_GT(at_sphere.n.z, 0);
+}
+
 TEST(SurfaceInteraction, SidesOfPlanesAndDiscsAreExact) {
   // The product of the directions is -2^-60. That of the rounded unit normal is positive.
   const Ray ray{.o = {0, 0, 0x1p-60F}, .d = {-5, 2, -0x1p-60F}};

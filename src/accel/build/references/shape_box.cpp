@@ -1,5 +1,7 @@
 #include "accel/build/references/shape_box.hpp"
 
+#include "base/finite.hpp"
+
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -10,9 +12,6 @@ namespace {
 template <class... Numbers>
 bool all_finite(Numbers... x) {
   return (std::isfinite(x) && ...);
-}
-bool all_finite(const Vec3& v) {
-  return all_finite(v.x, v.y, v.z);
 }
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -40,14 +39,15 @@ Box extended(const Vec3& center, const DVec3& reach) {
 }  // namespace
 
 bool is_empty(const Sphere& s) {
-  return !(all_finite(s.center) && std::isfinite(s.radius) && s.radius >= 0);
+  return !(microtrace::is_finite(s.center) && std::isfinite(s.radius) && s.radius >= 0);
 }
 bool is_empty(const Disc& d) {
   return is_empty(Sphere{.center = d.center, .radius = d.radius}) ||
          is_empty(Plane{.point = d.center, .normal = d.normal});
 }
 bool is_empty(const Plane& p) {
-  return !(all_finite(p.point) && all_finite(p.normal) && p.normal != Vec3(0));
+  return !(microtrace::is_finite(p.point) && microtrace::is_finite(p.normal) &&
+           p.normal != Vec3(0));
 }
 bool is_empty(const Quadric& q) {
   return !all_finite(q.a, q.b, q.c, q.d, q.e, q.f, q.g, q.h, q.i, q.j);
