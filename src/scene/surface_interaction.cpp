@@ -204,7 +204,7 @@ class Interaction {
   template <class AnyShape>
   [[nodiscard]] SurfaceInteraction exactly(const AnyShape& s) const {
     const auto t = exact::first_hit(s, ray_);
-    if (!t) return at(o_ + double{hit_.t} * d_, facing());
+    if (!t) return at(o_ + double{hit_.t} * d_, facing());  // not a hit of this ray
     const exact::Implicit f(s);
     SurfaceInteraction result =
         at(exact::round_point_to_double(ray_, *t), direction_or(f.gradient(ray_, *t), facing()));

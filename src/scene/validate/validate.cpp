@@ -32,22 +32,22 @@ Rule broken(std::string field, std::string message) {
   return BrokenRule{.field = std::move(field), .message = std::move(message)};
 }
 
-bool is_finite(float x) {
+bool fits_float32(float x) {
   return std::isfinite(x);
 }
-bool is_finite(double x) {
+bool fits_float32(double x) {
   return std::abs(x) < kFloat32Bound;
 }
 template <glm::length_t n, typename Number>
-bool is_finite(const glm::vec<n, Number>& v) {
+bool fits_float32(const glm::vec<n, Number>& v) {
   for (glm::length_t i = 0; i < n; ++i)
-    if (!is_finite(v[i])) return false;
+    if (!fits_float32(v[i])) return false;
   return true;
 }
 
 template <typename T>
 Rule finite(const char* field, const T& value) {
-  if (is_finite(value)) return {};
+  if (fits_float32(value)) return {};
   return broken(field, "must be finite in float32; the largest number is about 3.4e38");
 }
 
@@ -82,9 +82,10 @@ Rule check(const Triangle& t) {
 }
 
 Rule check(const Quadric& q) {
-  const bool all_finite = is_finite(q.a) && is_finite(q.b) && is_finite(q.c) && is_finite(q.d) &&
-                          is_finite(q.e) && is_finite(q.f) && is_finite(q.g) && is_finite(q.h) &&
-                          is_finite(q.i) && is_finite(q.j);
+  const bool all_finite = fits_float32(q.a) && fits_float32(q.b) && fits_float32(q.c) &&
+                          fits_float32(q.d) && fits_float32(q.e) && fits_float32(q.f) &&
+                          fits_float32(q.g) && fits_float32(q.h) && fits_float32(q.i) &&
+                          fits_float32(q.j);
   if (!all_finite) return broken("coefficients", "must be finite in float32");
   const bool varies = q.a != 0 || q.b != 0 || q.c != 0 || q.d != 0 || q.e != 0 || q.f != 0 ||
                       q.g != 0 || q.h != 0 || q.i != 0;
@@ -159,7 +160,7 @@ Rule check(const std::optional<double>& aspect_ratio) {
 }
 
 Rule not_negative(const char* field, double x) {
-  if (x >= 0 && is_finite(x)) return {};
+  if (x >= 0 && fits_float32(x)) return {};
   return broken(field, std::string("must be finite and not negative, is ").append(decimal(x)));
 }
 
