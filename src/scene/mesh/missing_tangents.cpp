@@ -51,7 +51,7 @@ bool lacks_tangents(const Scene& scene) {
 }
 
 /// The addresses and sizes of a mesh's arrays, which objects may share.
-std::vector<std::pair<const void*, std::size_t>> arrays_of(const Mesh& mesh) {
+std::vector<std::pair<const void*, std::size_t>> spans_of_arrays(const Mesh& mesh) {
   std::vector<std::pair<const void*, std::size_t>> result;
   const auto add = [&](const auto& array) { result.emplace_back(array.data(), array.size()); };
   add(mesh.positions);
@@ -68,12 +68,12 @@ std::vector<std::pair<const void*, std::size_t>> arrays_of(const Mesh& mesh) {
 std::shared_ptr<const Scene> with_tangents(std::shared_ptr<const Scene> scene) {
   if (!lacks_tangents(*scene)) return scene;
   auto result = std::make_shared<Scene>(*scene);
-  std::map<std::pair<std::uint32_t, decltype(arrays_of({}))>, Mesh> made;
+  std::map<std::pair<std::uint32_t, decltype(spans_of_arrays({}))>, Mesh> made;
   result->objects.edit_runs([&](Object& object) {
     const std::optional<std::uint32_t> set = missing_set(*scene, object);
     if (!set) return;
     auto& mesh = std::get<Mesh>(object.shape);
-    const auto [known, is_new] = made.try_emplace({*set, arrays_of(mesh)}, mesh);
+    const auto [known, is_new] = made.try_emplace({*set, spans_of_arrays(mesh)}, mesh);
     if (is_new) make_tangents(known->second, *set);
     const std::shared_ptr<const Placement> placement = mesh.placement;
     mesh = known->second;
