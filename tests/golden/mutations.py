@@ -5,8 +5,8 @@ the command lines of questions.txt. If no output changes, the fault is undetecte
 usage: mutations.py PROGRAM FOLDER [NAME...]
 
 PROGRAM is a build of the unchanged source. Its modules are used. FOLDER receives the copy and the copy's build. If NAMEs
-are given, only faults whose name contains one of them are tried. Not part of ctest, because it takes half an hour. The exit
-status is 1 if a fault is undetected or can no longer be applied to the source.
+are given, only faults whose name contains one of them are tried. Not part of ctest, because it takes more than an hour.
+The exit status is 1 if a fault is undetected or can no longer be applied to the source.
 """
 
 import os
