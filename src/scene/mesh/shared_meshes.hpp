@@ -3,6 +3,7 @@
 
 #include <microtrace/shape.hpp>
 
+#include <compare>
 #include <cstddef>
 #include <functional>
 #include <unordered_map>
@@ -16,7 +17,7 @@ struct ArrayKey {
 
   template <class T>
   explicit ArrayKey(const Array<T>& array) : data(array.data()), size(array.size()) {}
-  bool operator==(const ArrayKey&) const = default;
+  auto operator<=>(const ArrayKey&) const = default;
 
   struct Hash {
     std::size_t operator()(const ArrayKey& key) const {

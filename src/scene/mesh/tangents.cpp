@@ -102,8 +102,8 @@ std::vector<Vec4> flat_tangents(const Mesh& mesh, std::size_t uv_set) {
       {.positions = positions, .normals = normals, .uv = uv, .triangles = triangles});
 }
 
-}  // namespace
-
+/// Returns the set of texture coordinates that defines the material's tangents, if the material
+/// needs tangents.
 std::optional<std::uint32_t> tangent_set(const Material& material) {
   if (material.normal_texture) return material.normal_texture->uv_set;
   if (material.clearcoat && material.clearcoat->normal_texture) {
@@ -111,6 +111,15 @@ std::optional<std::uint32_t> tangent_set(const Material& material) {
   }
   if (!material.anisotropy) return std::nullopt;
   return material.anisotropy->texture ? material.anisotropy->texture->uv_set : 0;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> missing_tangents(const Material& material, const Mesh& mesh) {
+  const std::optional<std::uint32_t> set = tangent_set(material);
+  if (!set || !mesh.tangents.empty() || mesh.triangles.empty()) return std::nullopt;
+  if (*set >= mesh.uv_sets.size() || mesh.uv_sets[*set].empty()) return std::nullopt;
+  return set;
 }
 
 std::vector<std::uint32_t> make_tangents(Mesh& mesh, std::size_t uv_set) {

@@ -11,9 +11,11 @@
 
 namespace microtrace {
 
-/// Returns the set of texture coordinates that defines the material's tangents, if the material
-/// needs tangents.
-[[nodiscard]] std::optional<std::uint32_t> tangent_set(const Material& material);
+/// Returns the set of texture coordinates from which a mesh's missing tangents are generated (glTF
+/// 2.0, section 3.7.2.1). Returns nothing if the material needs no tangents, or if the mesh has
+/// tangents, no triangles, or no such set.
+[[nodiscard]] std::optional<std::uint32_t> missing_tangents(const Material& material,
+                                                            const Mesh& mesh);
 
 /// Gives a mesh the tangents that MikkTSpace defines for one of its sets of texture coordinates.
 /// The set must exist. MikkTSpace is the standard for baked normal maps (M. Mikkelsen, Simulation

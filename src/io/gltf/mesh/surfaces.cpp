@@ -117,13 +117,11 @@ class SurfaceMaker {
            static_cast<std::uint32_t>(found - unlit_.begin());
   }
 
-  /// Generates tangents if the material needs them and the mesh has none (glTF 2.0, section
-  /// 3.7.2.1).
+  /// Generates the tangents that are missing.
   void add_tangents(Surface& surface) const {
     Mesh& mesh = surface.mesh;
-    const std::optional<std::uint32_t> set = tangent_set(materials_[surface.material]);
-    if (!set || !mesh.tangents.empty() || mesh.triangles.empty()) return;
-    if (*set >= mesh.uv_sets.size() || mesh.uv_sets[*set].empty()) return;
+    const auto set = missing_tangents(materials_[surface.material], mesh);
+    if (!set) return;
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t i : make_tangents(mesh, *set)) vertices.push_back(surface.vertices[i]);
     surface.vertices = std::move(vertices);
