@@ -112,9 +112,7 @@ class Interaction {
     const std::optional<SphereHit> hit = hit_of(s);
     if (!hit) return exactly(s);
     const DVec3 center(s.center), n = direction_or(o_ - center + hit->t * d_, facing());
-    SurfaceInteraction result = at(center + double{s.radius} * n, n);
-    result.front = hit->enters;
-    return result;
+    return at(center + double{s.radius} * n, n, hit->enters);
   }
 
   SurfaceInteraction operator()(const Plane& s) const { return planar(s, s.point); }
@@ -124,18 +122,18 @@ class Interaction {
     const QuadraticPolynomial sizes = along(magnitudes_of(q), glm::abs(o_), glm::abs(d_));
     const std::optional<double> t = along(q, o_, d_).root_near(hit_.t, sizes);
     if (!t) return exactly(q);
-    const DVec3 p = o_ + *t * d_;
-    return at(p, direction_or(half_gradient(q, p, 1), facing()));
+    const DVec3 p = o_ + *t * d_, n = direction_or(half_gradient(q, p, 1), facing());
+    return at(p, n, !(glm::dot(d_, n) > 0));
   }
 
   SurfaceInteraction operator()(const Triangle& s) const {
     const TriangleCorners<1> t = corners_of(s);
     const auto inside = barycentrics_of<1>(t, o_, d_);
-    SurfaceInteraction result = inside.exists ? at(weighted(inside.v, t.a, t.b, t.c),
-                                                   direction_or(area_vector<1>(t), facing()))
-                                              : exactly(s);
+    SurfaceInteraction result =
+        inside.exists ? at(weighted(inside.v, t.a, t.b, t.c),
+                           direction_or(area_vector<1>(t), facing()), shows_front(s, ray_.d))
+                      : exactly(s);
     const DVec3 w = inside.exists ? inside.v : barycentrics_at(t, result.p);
-    result.front = shows_front(s, ray_.d);
     const PlacedMesh mesh = primitives_.object_of(hit_.id).mesh;
     result.triangle = TrianglePoint{.barycentrics = w, .mesh = mesh, .corners = {}};
     if (!mesh) return result;
@@ -181,12 +179,12 @@ class Interaction {
 
   [[nodiscard]] DVec3 facing() const { return direction_or(-d_, DVec3(0, 0, 1)); }
 
-  [[nodiscard]] SurfaceInteraction at(const DVec3& p, const DVec3& n) const {
+  [[nodiscard]] SurfaceInteraction at(const DVec3& p, const DVec3& n, bool front) const {
     const std::size_t object = primitives_.object_index(hit_.id);
     return {.p = p,
             .n = n,
             .ns = n,
-            .front = !(glm::dot(d_, n) > 0),
+            .front = front,
             .object = object,
             .primitive = hit_.id - primitives_.first_id_of(object)};
   }
@@ -195,21 +193,17 @@ class Interaction {
     const DVec3 normal(s.normal);
     const double t = glm::dot(point - o_, normal) / glm::dot(d_, normal);
     if (!std::isfinite(hit_.t) || !(std::abs(t - hit_.t) <= 0x1p-22 * hit_.t)) return exactly(s);
-    SurfaceInteraction result = at(o_ + t * d_, direction_or(normal, facing()));
-    result.front = slope_sign(s.normal, ray_.d) <= 0;
-    return result;
+    return at(o_ + t * d_, direction_or(normal, facing()), slope_sign(s.normal, ray_.d) <= 0);
   }
 
   /// The surface by exact arithmetic, which is slow.
   template <class AnyShape>
   [[nodiscard]] SurfaceInteraction exactly(const AnyShape& s) const {
     const auto t = exact::first_hit(s, ray_);
-    if (!t) return at(o_ + double{hit_.t} * d_, facing());  // not a hit of this ray
+    if (!t) return at(o_ + double{hit_.t} * d_, facing(), true);  // not a hit of this ray
     const exact::Implicit f(s);
-    SurfaceInteraction result =
-        at(exact::round_point_to_double(ray_, *t), direction_or(f.gradient(ray_, *t), facing()));
-    result.front = f.sign_behind(ray_, *t, -ray_.d) >= 0;
-    return result;
+    return at(exact::round_point_to_double(ray_, *t), direction_or(f.gradient(ray_, *t), facing()),
+              f.sign_behind(ray_, *t, -ray_.d) >= 0);
   }
 
   const Primitives& primitives_;
