@@ -33,19 +33,16 @@ std::vector<PixelRect> parts_of_objects(const Scene& scene, const Camera& camera
   std::vector<PixelRect> parts;
   parts.reserve(scene.objects.size());
   ChunkedMeshes chunks;
-  for (const ObjectRun& run : scene.objects.runs()) {
-    for (std::size_t i = 0; i < run.count; ++i) {
-      if (run.mesh(i).placement != nullptr) {
-        const std::optional<Extent> extent = extent_of({run, i}, chunks);
-        parts.push_back(
-            extent ? occupied_part(camera, rays, Vec3(extent->low), Vec3(extent->high), window)
-                   : PixelRect{});
-        continue;
-      }
-      const auto* mesh = std::get_if<Mesh>(&run.first->shape);
-      parts.push_back(mesh == nullptr ? window : part_of(*mesh, camera, rays, window));
-    }
-  }
+  const auto part = [&](const ObjectRun& run, std::size_t i) {
+    const auto* mesh = std::get_if<Mesh>(&run.first->shape);
+    if (mesh == nullptr) return window;
+    if (run.mesh(i).placement == nullptr) return part_of(*mesh, camera, rays, window);
+    const std::optional<Extent> extent = extent_of({run, i}, chunks);
+    if (!extent) return PixelRect{};
+    return occupied_part(camera, rays, Vec3(extent->low), Vec3(extent->high), window);
+  };
+  for (const ObjectRun& run : scene.objects.runs())
+    for (std::size_t i = 0; i < run.count; ++i) parts.push_back(part(run, i));
   return parts;
 }
 

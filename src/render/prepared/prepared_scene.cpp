@@ -60,9 +60,9 @@ std::shared_ptr<const SharedTables> PreparedScene::tables() const {
 }
 
 Ray PreparedScene::in_scene(const Ray& ray) const {
-  const FloatEnvironment environment;
   const DVec3& origin = scene().origin;
   if (origin == DVec3(0)) return ray;
+  const FloatEnvironment environment;
   Ray result = ray;
   result.o = Vec3(DVec3(ray.o) - origin);
   return result;
