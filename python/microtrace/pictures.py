@@ -521,6 +521,16 @@ def _as_background(value: Vector) -> Vector:
     return color
 
 
+def _until_false(progress: Callable[[float], Any]) -> Callable[[float], bool | None]:
+    """Returns a function that returns False exactly if `progress` does; NumPy's False counts."""
+
+    def go_on(share: float) -> bool | None:
+        result = progress(share)
+        return not isinstance(result, (bool, np.bool_)) or bool(result)
+
+    return go_on
+
+
 class _shown:
     """A context manager that provides the progress function; None if there is none."""
 
@@ -529,10 +539,7 @@ class _shown:
     ) -> None:
         if not callable(progress) and not isinstance(progress, (bool, type(None))):
             raise TypeError(f"progress must be a function, True or False, not {progress!r}")
-        self._progress = progress
-        self._function: Callable[[float], bool | None] | None = None
-        if callable(progress):
-            self._function = self._go_on
+        self._function = _until_false(progress) if callable(progress) else None
         self._bar: Any = None
         if progress is True and sys.stderr is not None:  # pythonw and daemons have none
             try:
@@ -541,12 +548,6 @@ class _shown:
                 return
             self._bar = tqdm(total=count, unit=unit)
             self._function = self._advance
-
-    def _go_on(self, share: float) -> bool:
-        """Calls the user's function. What NumPy's comparisons return counts as bool."""
-        assert callable(self._progress)
-        result = self._progress(share)
-        return not isinstance(result, (bool, np.bool_)) or bool(result)
 
     def _advance(self, share: float) -> None:
         self._bar.update(share * self._bar.total - self._bar.n)

@@ -278,9 +278,8 @@ class PreparedScene:
         outside.
 
         Only triangles count, so points within spheres and other shapes are outside. A point is
-        inside if a ray from it crosses an odd number of triangles. The ray is chosen by
-        exact tests to avoid all edges and vertices, so results for closed meshes are always
-        correct.
+        inside if a ray from it crosses an odd number of triangles. The ray is chosen by exact tests
+        to avoid all edges and vertices, so results for closed meshes are always correct.
 
         Args:
             points: (..., 3) real numbers, world space. Scene.origin is subtracted in float64, and

@@ -39,9 +39,8 @@ class Scene(Brief):
 
     Everything is plain data in world space. Change it as you like, then call prepare(). Arrays of
     files' meshes and images are read-only; replace them, or change a copy by copy.deepcopy().
-    Coordinates
-    of shapes and cameras are relative to `origin`, which is (0, 0, 0) unless a file's geometry is
-    far from zero.
+    Coordinates of shapes and cameras are relative to `origin`, which is (0, 0, 0) unless a file's
+    geometry is far from zero.
     """
 
     objects: list[Object] = field(default_factory=list)
