@@ -56,7 +56,7 @@ typedef struct mt_load_options {
   double time;           /* animation time in seconds; NaN: no animation is applied */
   const char* animation; /* name or index of the animation; NULL: the first */
   const char* variant;   /* name or index of the material variant; NULL: none */
-  uint32_t threads;      /* for building the tree; 0: one per processor */
+  uint32_t threads;      /* for building the tree; 0: one per available processor */
 } mt_load_options;
 
 MT_API void mt_load_options_init(mt_load_options* options);
@@ -219,7 +219,7 @@ typedef struct mt_render_options {
   uint32_t samples;        /* per pixel; 0: 1 for MT_FLAT, 64 for MT_PATH */
   uint32_t max_depth;      /* maximum path length, for MT_PATH; 0: 32 */
   uint32_t seed;           /* random seed */
-  uint32_t threads;        /* 0: one for each processor */
+  uint32_t threads;        /* 0: one per available processor */
   const mt_camera* camera; /* NULL: the scene's first camera, or one that frames the whole scene */
   int32_t transparent;     /* nonzero: omits the background and gives the film alpha */
   /* Names of exact quantities to store as additional channels, separated by commas

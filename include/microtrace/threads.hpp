@@ -4,7 +4,9 @@
 
 namespace microtrace {
 
-/// Returns the number of processors available to this process, at least 1.
+/// Returns the number of processors available to this process, at least 1: those on which it may
+/// run, but no more than the CPU quota of its control groups (cgroups) grants, rounded up. The
+/// quota is read once.
 [[nodiscard]] MICROTRACE_EXPORT unsigned default_threads();
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #include "base/shared_range.hpp"
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 #include "common.hpp"
 #include "float_environment.hpp"
 

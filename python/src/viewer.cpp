@@ -1,6 +1,6 @@
 /// Binds the page of `microtrace view`.
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/view/view_server.hpp"
 #include "common.hpp"

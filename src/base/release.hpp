@@ -1,5 +1,5 @@
 #pragma once
-#include "base/mapped_pages.hpp"
+#include "base/system/mapped_pages.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "base/split_at_commas.hpp"
+#include "base/text/split_at_commas.hpp"
 #include "capi/handles.hpp"
 #include "scene/validate/validate.hpp"
 

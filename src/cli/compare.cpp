@@ -1,6 +1,6 @@
 #include "cli/compare.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/report/standard_output.hpp"
 

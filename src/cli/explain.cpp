@@ -1,6 +1,6 @@
 #include "cli/explain.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/options/option_value.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/report/explanation_text.hpp"

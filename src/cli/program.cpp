@@ -1,7 +1,7 @@
 #include "cli/program.hpp"
 
-#include "base/printable.hpp"
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
+#include "base/text/printable.hpp"
 #include "cli/arguments.hpp"
 #include "cli/compare.hpp"
 #include "cli/dataset/dataset.hpp"

@@ -1,6 +1,6 @@
 #include "cli/signals.hpp"
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>

@@ -1,6 +1,6 @@
 #include "dataset/npz_views.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/npz/npy_array.hpp"
 #include "io/npz/zip_archive.hpp"
 #include "io/scene_json/camera.hpp"

@@ -1,6 +1,6 @@
 #include "denoise/filters.hpp"
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/threads.hpp>

@@ -1,6 +1,6 @@
 #include "io/confined_reads.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <microtrace/error.hpp>
 

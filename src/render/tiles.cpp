@@ -1,7 +1,7 @@
 #include "render/tiles.hpp"
 
 #include "base/shared_range.hpp"
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 
 #include <microtrace/error.hpp>
 

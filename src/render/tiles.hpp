@@ -1,7 +1,7 @@
 #pragma once
 /// Divides a picture into tiles, and distributes the tiles to threads.
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 
 #include <microtrace/film.hpp>
 #include <microtrace/stage_counts.hpp>

@@ -1,6 +1,6 @@
 #include "simd/instruction_set.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <microtrace/error.hpp>
 

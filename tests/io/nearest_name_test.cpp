@@ -1,6 +1,6 @@
-#include "base/nearest_name.hpp"
+#include "base/text/nearest_name.hpp"
 
-#include "base/named_items.hpp"
+#include "base/text/named_items.hpp"
 
 #include <array>
 #include <string>

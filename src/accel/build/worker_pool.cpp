@@ -1,6 +1,6 @@
 #include "accel/build/worker_pool.hpp"
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 
 #include <microtrace/threads.hpp>
 

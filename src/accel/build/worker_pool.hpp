@@ -1,5 +1,5 @@
 #pragma once
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 
 #include <atomic>
 #include <condition_variable>

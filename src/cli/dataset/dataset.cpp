@@ -1,7 +1,7 @@
 #include "cli/dataset/dataset.hpp"
 
 #include "base/counted.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/pictures/render_picture.hpp"

@@ -1,5 +1,5 @@
 #include "base/counted.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/dataset/dataset.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/dataset/view_renderer.hpp"

@@ -1,7 +1,7 @@
 #include "cli/dataset/view_renderer.hpp"
 
-#include "base/named_items.hpp"
-#include "base/printable.hpp"
+#include "base/text/named_items.hpp"
+#include "base/text/printable.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/options/values.hpp"
 #include "cli/pictures/camera.hpp"

@@ -1,6 +1,6 @@
 #include "cli/options/check_words.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/options/option_value.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "base/split_at_commas.hpp"
+#include "base/text/split_at_commas.hpp"
 #include "cli/arguments.hpp"
 #include "cli/options/option.hpp"
 

@@ -1,6 +1,6 @@
 #include "cli/options/option.hpp"
 
-#include "base/split_at_commas.hpp"
+#include "base/text/split_at_commas.hpp"
 
 namespace microtrace::cli {
 namespace {

@@ -1,7 +1,7 @@
 #include "cli/options/option_value.hpp"
 
-#include "base/printable.hpp"
-#include "base/split_at_commas.hpp"
+#include "base/text/printable.hpp"
+#include "base/text/split_at_commas.hpp"
 
 #include <microtrace/error.hpp>
 

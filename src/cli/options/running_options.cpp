@@ -18,7 +18,7 @@ constexpr std::array kRunningOptions{
     Option{.names = "-t,-j,--threads",
            .metavar = "N",
            .help = "number of threads, 1 to 1024; the picture doesn't depend on it",
-           .default_value = "one per processor",
+           .default_value = "one per available processor",
            .samples = Samples::keep,
            .set = [](Arguments& a,
                      const OptionValue& value) { a.threads = value.whole_number(1, 1024); }},

@@ -1,7 +1,7 @@
 #include "cli/options/usage_error.hpp"
 
-#include "base/nearest_name.hpp"
-#include "base/printable.hpp"
+#include "base/text/nearest_name.hpp"
+#include "base/text/printable.hpp"
 #include "cli/arguments.hpp"
 #include "cli/options/help.hpp"
 #include "cli/options/shell_word.hpp"

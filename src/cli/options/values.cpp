@@ -1,6 +1,6 @@
 #include "cli/options/values.hpp"
 
-#include "base/split_at_commas.hpp"
+#include "base/text/split_at_commas.hpp"
 #include "scene/math/srgb.hpp"
 #include "scene/validate/validate.hpp"
 

@@ -1,6 +1,6 @@
 #include "cli/pictures/camera.hpp"
 
-#include "base/named_items.hpp"
+#include "base/text/named_items.hpp"
 #include "scene/math/trigonometry.hpp"
 #include "scene/validate/validate.hpp"
 

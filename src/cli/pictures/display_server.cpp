@@ -1,6 +1,6 @@
 #include "cli/pictures/display_server.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <microtrace/error.hpp>
 

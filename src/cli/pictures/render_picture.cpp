@@ -1,7 +1,7 @@
 #include "cli/pictures/render_picture.hpp"
 
 #include "base/memory_account.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/pictures/output_paths.hpp"

@@ -1,7 +1,7 @@
 #include "cli/report/explanation_text.hpp"
 
 #include "base/counted.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "scene/validate/validate.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "cli/report/scene_summary.hpp"
 
 #include "base/counted.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/report/warnings.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "cli/report/validation_result.hpp"
 
 #include "base/counted.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/report/standard_output.hpp"
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 #include "cli/report/written_files.hpp"
 
 #include "base/counted.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/options/option_value.hpp"
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "cli/view/errands.hpp"
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 #include "float_environment.hpp"
 
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 /// Work for single requests, beside the rendering of pictures.
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 
 #include <atomic>
 #include <functional>

@@ -1,7 +1,7 @@
 #include "cli/view/live_picture.hpp"
 
-#include "base/printable.hpp"
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
+#include "base/text/printable.hpp"
 #include "cli/view/picture_json.hpp"
 #include "float_environment.hpp"
 #include "io/image/encode/png.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// A picture on the page, which refines while the user looks at it and changes with the options.
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 #include "cli/arguments.hpp"
 #include "cli/view/picture_job.hpp"
 #include "cli/view/scene_source.hpp"

@@ -1,6 +1,6 @@
 #include "cli/view/view.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/report/standard_output.hpp"
 #include "cli/signals.hpp"
 #include "cli/view/browser.hpp"

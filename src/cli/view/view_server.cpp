@@ -1,6 +1,6 @@
 #include "cli/view/view_server.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "cli/options/option_value.hpp"
 #include "cli/view/page.hpp"
 #include "cli/view/picture_job.hpp"

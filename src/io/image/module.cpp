@@ -1,6 +1,6 @@
 #include "io/image/module.hpp"
 
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 #include "io/image/encode/lack_of_memory.hpp"
 #include "io/image/encode/module_picture.hpp"
 #include "io/module_function.hpp"

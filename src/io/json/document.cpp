@@ -1,6 +1,6 @@
 #include "io/json/document.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/json/excerpt.hpp"
 #include "io/json/tree_builder.hpp"
 

@@ -1,6 +1,6 @@
 #include "io/json/excerpt.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <algorithm>
 

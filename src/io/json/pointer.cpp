@@ -1,4 +1,4 @@
-#include "base/index_text.hpp"
+#include "base/text/index_text.hpp"
 #include "io/json/document.hpp"
 
 #include <algorithm>

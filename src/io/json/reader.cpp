@@ -1,7 +1,7 @@
 #include "io/json/reader.hpp"
 
-#include "base/nearest_name.hpp"
-#include "base/printable.hpp"
+#include "base/text/nearest_name.hpp"
+#include "base/text/printable.hpp"
 
 #include <algorithm>
 #include <cmath>

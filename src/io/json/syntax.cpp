@@ -1,6 +1,6 @@
 #include "io/json/syntax.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <algorithm>
 

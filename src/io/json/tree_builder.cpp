@@ -1,6 +1,6 @@
 #include "io/json/tree_builder.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/json/members.hpp"
 #include "io/json/syntax.hpp"
 #include "io/json/token.hpp"

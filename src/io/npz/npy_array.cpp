@@ -1,7 +1,7 @@
 #include "io/npz/npy_array.hpp"
 
 #include "base/memory_account.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/checkpoint/bytes.hpp"
 
 #include <microtrace/error.hpp>

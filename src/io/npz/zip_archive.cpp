@@ -2,7 +2,7 @@
 
 #include "base/crc32.hpp"
 #include "base/memory_account.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/checkpoint/bytes.hpp"
 #include "io/file.hpp"
 #include "io/image/codec_abi.hpp"

@@ -1,6 +1,6 @@
 #include "io/scene_json/color.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <string_view>
 #include <vector>

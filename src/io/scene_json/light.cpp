@@ -1,7 +1,7 @@
 #include "io/scene_json/light.hpp"
 
 #include "base/memory_account.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/scene_json/path.hpp"
 #include "scene/math/trigonometry.hpp"
 

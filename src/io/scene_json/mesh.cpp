@@ -1,7 +1,7 @@
 #include "io/scene_json/mesh.hpp"
 
 #include "base/memory_account.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/file.hpp"
 #include "io/gltf/scene/scene.hpp"
 #include "io/scene_json/path.hpp"

@@ -1,6 +1,6 @@
 #include "io/scene_json/names.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 namespace microtrace::io {
 

@@ -1,10 +1,12 @@
-#include "base/free_memory.hpp"
 #include "base/memory_account.hpp"
 #include "base/release.hpp"
+#include "base/system/free_memory.hpp"
+#include "base/system/processors.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/page_allocator.hpp>
 #include <microtrace/render.hpp>
+#include <microtrace/threads.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,14 +74,13 @@ TEST(MemoryAccount, CountsNothingWithoutABudget) {
 }
 
 /// A temporary folder that stands for the root of the file system.
-class FreeMemory : public ::testing::Test {
+class SystemFiles : public ::testing::Test {
  protected:
-  FreeMemory() {
+  SystemFiles() {
     std::string name = (std::filesystem::temp_directory_path() / "microtrace-XXXXXX").string();
     root_ = mkdtemp(name.data());
-    write("proc/meminfo", "MemTotal: 9000 kB\nMemFree: 10 kB\nMemAvailable: 5000 kB\n");
   }
-  ~FreeMemory() override { std::filesystem::remove_all(root_); }
+  ~SystemFiles() override { std::filesystem::remove_all(root_); }
 
   void write(const char* file, const char* text) const {
     std::filesystem::create_directories((root_ / file).parent_path());
@@ -86,6 +88,13 @@ class FreeMemory : public ::testing::Test {
   }
 
   std::filesystem::path root_;
+};
+
+class FreeMemory : public SystemFiles {
+ protected:
+  FreeMemory() {
+    write("proc/meminfo", "MemTotal: 9000 kB\nMemFree: 10 kB\nMemAvailable: 5000 kB\n");
+  }
 };
 
 TEST_F(FreeMemory, EqualsTheAvailableMemoryOfTheSystem) {
@@ -113,6 +122,50 @@ TEST_F(FreeMemory, RespectsGroupsOfVersion1) {
   write("sys/fs/cgroup/memory/job/memory.limit_in_bytes", "800\n");
   write("sys/fs/cgroup/memory/job/memory.usage_in_bytes", "300\n");
   EXPECT_EQ(free_memory(root_), 500U);
+}
+
+class ProcessorQuota : public SystemFiles {};
+
+TEST_F(ProcessorQuota, IsAbsentWithoutALimit) {
+  EXPECT_EQ(processor_quota(root_), std::nullopt);
+  write("proc/self/cgroup", "0::/job\n");
+  EXPECT_EQ(processor_quota(root_), std::nullopt);
+  write("sys/fs/cgroup/job/cpu.max", "max 100000\n");
+  EXPECT_EQ(processor_quota(root_), std::nullopt);
+  write("proc/self/cgroup", "4:cpu,cpuacct:/job\n");
+  write("sys/fs/cgroup/cpu/job/cpu.cfs_quota_us", "-1\n");
+  write("sys/fs/cgroup/cpu/job/cpu.cfs_period_us", "100000\n");
+  EXPECT_EQ(processor_quota(root_), std::nullopt);
+}
+
+TEST_F(ProcessorQuota, IsTheSmallestOfTheGroupsRoundedUp) {
+  write("proc/self/cgroup", "0::/outer/inner\n");
+  write("sys/fs/cgroup/cpu.max", "800000 100000\n");
+  EXPECT_EQ(processor_quota(root_), 8U);
+  write("sys/fs/cgroup/outer/cpu.max", "150000 100000\n");
+  EXPECT_EQ(processor_quota(root_), 2U);
+  write("sys/fs/cgroup/outer/inner/cpu.max", "1000 100000\n");
+  EXPECT_EQ(processor_quota(root_), 1U);
+  write("sys/fs/cgroup/outer/inner/cpu.max", "9000000000000 1000\n");
+  EXPECT_EQ(processor_quota(root_), 2U);
+}
+
+TEST_F(ProcessorQuota, RespectsGroupsOfVersion1) {
+  write("proc/self/cgroup", "5:cpu,cpuacct:/job\n1:cpuset:/\n");
+  write("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "400000\n");  // a container sees its group here
+  write("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n");
+  EXPECT_EQ(processor_quota(root_), 4U);
+  write("sys/fs/cgroup/cpu/job/cpu.cfs_quota_us", "50000\n");
+  EXPECT_EQ(processor_quota(root_), 4U) << "a quota without its period";
+  write("sys/fs/cgroup/cpu/job/cpu.cfs_period_us", "20000\n");
+  EXPECT_EQ(processor_quota(root_), 3U);
+}
+
+TEST(DefaultThreads, IsAtMostTheQuota) {
+  EXPECT_GE(default_threads(), 1U);
+  if (const auto quota = processor_quota()) {
+    EXPECT_LE(default_threads(), *quota);
+  }
 }
 
 /// Returns a ball with `count` materials and `count` textures that all share one image.

@@ -4,7 +4,7 @@
 #include "accel/build/binary/cells.hpp"
 #include "accel/build/binary/partition.hpp"
 #include "accel/build/wide/collapse.hpp"
-#include "base/mapped_pages.hpp"
+#include "base/system/mapped_pages.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "base/named_items.hpp"
+#include "base/text/named_items.hpp"
 #include "io/gltf/animation/animations.hpp"
 #include "io/gltf/document/properties.hpp"
 

@@ -1,6 +1,6 @@
 #include "io/gltf/animation/animations.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/gltf/document/extension.hpp"
 #include "io/gltf/document/index_text.hpp"
 #include "io/gltf/document/properties.hpp"

@@ -1,6 +1,6 @@
 #include "io/gltf/check/features.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/gltf/extensions/extensions.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "io/gltf/document/extension.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <cmath>
 #include <string>

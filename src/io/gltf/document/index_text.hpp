@@ -1,5 +1,5 @@
 #pragma once
-#include "base/index_text.hpp"
+#include "base/text/index_text.hpp"
 
 #include <cstddef>
 #include <optional>

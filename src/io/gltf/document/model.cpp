@@ -1,7 +1,7 @@
 #include "io/gltf/document/model.hpp"
 
-#include "base/mapped_pages.hpp"
 #include "base/memory_account.hpp"
+#include "base/system/mapped_pages.hpp"
 #include "io/gltf/document/model_json.hpp"
 #include "io/gltf/document/properties.hpp"
 #include "io/json/write.hpp"

@@ -1,6 +1,6 @@
 #include "io/gltf/document/variants.hpp"
 
-#include "base/named_items.hpp"
+#include "base/text/named_items.hpp"
 #include "io/gltf/document/extension.hpp"
 #include "io/gltf/document/properties.hpp"
 

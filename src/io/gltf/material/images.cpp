@@ -1,7 +1,7 @@
 #include "io/gltf/material/images.hpp"
 
 #include "base/memory_account.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/file.hpp"
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"

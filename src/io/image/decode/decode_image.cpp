@@ -1,7 +1,7 @@
 #include "io/image/decode/decode_image.hpp"
 
-#include "base/mapped_pages.hpp"
 #include "base/memory_account.hpp"
+#include "base/system/mapped_pages.hpp"
 #include "io/image/codec_abi.hpp"
 #include "io/image/decode/image_header.hpp"
 #include "io/module_function.hpp"

@@ -1,6 +1,6 @@
 #include "io/image/encode/png.hpp"
 
-#include "base/mapped_pages.hpp"
+#include "base/system/mapped_pages.hpp"
 #include "io/image/encode/eight_bits.hpp"
 #include "io/image/encode/lack_of_memory.hpp"
 #include "io/image/encode/notes.hpp"

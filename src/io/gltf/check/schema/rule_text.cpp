@@ -1,6 +1,6 @@
 #include "io/gltf/check/schema/rule_text.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <cmath>
 #include <sstream>

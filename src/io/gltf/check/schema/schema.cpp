@@ -1,6 +1,6 @@
 #include "io/gltf/check/schema/schema.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 #include "io/gltf/check/schema/attribute_names.hpp"
 #include "io/gltf/check/schema/rule_text.hpp"
 #include "io/gltf/extensions/extensions.hpp"

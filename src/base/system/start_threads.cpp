@@ -1,4 +1,4 @@
-#include "base/start_threads.hpp"
+#include "base/system/start_threads.hpp"
 
 #include "float_environment.hpp"
 

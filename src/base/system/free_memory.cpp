@@ -1,4 +1,6 @@
-#include "base/free_memory.hpp"
+#include "base/system/free_memory.hpp"
+
+#include "base/system/control_groups.hpp"
 
 #include <microtrace/memory.hpp>
 
@@ -51,38 +53,17 @@ std::uint64_t left_in_group(const fs::path& group, const GroupFiles& names) {
   return *limit - std::min(*limit, in_use);
 }
 
-/// Returns the least memory left in the group and its ancestors. Includes the root of the mount,
-/// which may be the group itself in a container.
-std::uint64_t left_in_groups(const fs::path& mount, const fs::path& path, const GroupFiles& names) {
-  std::uint64_t least = left_in_group(mount, names);
-  fs::path group = mount;
-  for (const fs::path& part : path.relative_path()) {
-    group /= part;
-    least = std::min(least, left_in_group(group, names));
-  }
-  return least;
-}
+constexpr GroupFiles kFilesV1 = {"memory.limit_in_bytes", "memory.usage_in_bytes",
+                                 "total_inactive_file"};
+constexpr GroupFiles kFilesV2 = {"memory.max", "memory.current", "inactive_file"};
 
+/// Returns the least memory left in any of the groups.
 std::uint64_t left_in_all_groups(const fs::path& root) {
   std::uint64_t least = kUnlimited;
-  std::ifstream groups(root / "proc/self/cgroup");
-  for (std::string line; std::getline(groups, line);) {
-    // Lines are "number:controllers:path"; version 2 has number 0 and no controllers.
-    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
-    if (first == std::string::npos || second == std::string::npos) continue;
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
-    const fs::path path = line.substr(second + 1);
-    std::uint64_t left = kUnlimited;
-    if (controllers == ",,") {
-      left = left_in_groups(root / "sys/fs/cgroup", path,
-                            {"memory.max", "memory.current", "inactive_file"});
-    } else if (controllers.find(",memory,") != std::string::npos) {
-      left =
-          left_in_groups(root / "sys/fs/cgroup/memory", path,
-                         {"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"});
-    }
-    least = std::min(least, left);
-  }
+  for_each_control_group(root, "memory", [&](const fs::path& group, CgroupVersion version) {
+    const GroupFiles& names = version == CgroupVersion::v2 ? kFilesV2 : kFilesV1;
+    least = std::min(least, left_in_group(group, names));
+  });
   return least;
 }
 

@@ -1,6 +1,6 @@
-#include "base/nearest_name.hpp"
+#include "base/text/nearest_name.hpp"
 
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 #include <algorithm>
 #include <numeric>

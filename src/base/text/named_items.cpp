@@ -1,7 +1,7 @@
-#include "base/named_items.hpp"
+#include "base/text/named_items.hpp"
 
-#include "base/index_text.hpp"
-#include "base/printable.hpp"
+#include "base/text/index_text.hpp"
+#include "base/text/printable.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "base/mapped_pages.hpp"
+#include "base/system/mapped_pages.hpp"
 
 #include <microtrace/page_allocator.hpp>
 
