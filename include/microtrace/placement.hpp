@@ -28,8 +28,9 @@ class MICROTRACE_EXPORT Placement {
   [[nodiscard]] DVec3 normal(const DVec3& n) const;
   /// Returns M v, normalized. Zero if the result has no direction.
   [[nodiscard]] DVec3 direction(const DVec3& v) const;
-  /// True if the transform reverses orientation. Two corners of each triangle are then exchanged,
-  /// so that front faces remain front faces (glTF 2.0, section 3.7.4).
+  /// True if the transform reverses orientation, and is not flat but for rounding. Two corners of
+  /// each triangle are then exchanged, so that front faces remain front faces (glTF 2.0,
+  /// section 3.7.4).
   [[nodiscard]] bool is_mirrored() const;
 
   /// Returns column k of M, or t for k = 3.

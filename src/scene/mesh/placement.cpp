@@ -28,7 +28,11 @@ Placement::Placement(const DMat4& m)
     : columns_{DVec3(m[0]), DVec3(m[1]), DVec3(m[2]), DVec3(m[3])} {}
 
 bool Placement::is_mirrored() const {
-  return glm::determinant(glm::dmat3(columns_[0], columns_[1], columns_[2])) < 0;
+  if (!(glm::determinant(glm::dmat3(columns_[0], columns_[1], columns_[2])) < 0)) return false;
+  // Below rotated nodes, a scale of 0 gives a determinant of either sign, by rounding.
+  constexpr double kFlat = 1e-12;
+  return glm::determinant(glm::dmat3(direction_of(columns_[0]), direction_of(columns_[1]),
+                                     direction_of(columns_[2]))) < -kFlat;
 }
 
 DVec3 Placement::normal(const DVec3& n) const {
