@@ -135,6 +135,20 @@ TEST(DecodeImage, TruncatedJpegIsDecodedWithAWarning) {
   EXPECT_FALSE(decode_image(kJpeg.substr(0, 100)).image);
 }
 
+TEST(DecodeImage, HarmlessOdditiesOfJpegGiveNoWarning) {
+  const DecodedImage usual = decode_image(kJpeg);
+  std::string padded = kJpeg, other_version = kJpeg;
+  padded.insert(kJpeg.size() - 2, 8, '\x11');  // before the end marker
+  ASSERT_EQ(kJpeg.substr(6, 4), "JFIF");
+  other_version[11] = 2;
+  for (const std::string& file : {padded, other_version}) {
+    const DecodedImage decoded = decode_image(file);
+    EXPECT_EQ(decoded.complaint, "");
+    ASSERT_TRUE(decoded.image);
+    EXPECT_EQ(decoded.image->samples, usual.image->samples);
+  }
+}
+
 TEST(DecodeImage, WebpLosslessAndLossy) {
   const Image exact = decode(kLosslessWebp);
   expect_size(exact, 2, 2, 4);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <random>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -102,7 +103,92 @@ TEST(RadianceMapFile, HdrIsAccurateToEightBits) {
   save_image(panorama(), folder / "a.hdr");
   const LoadedRadianceMap loaded = load_radiance_map(folder / "a.hdr");
   EXPECT_TRUE(loaded.warnings.empty());
-  expect_equal(*loaded.map, panorama(), 1.0 / 128);
+  expect_equal(*loaded.map, panorama(), 1.0 / 256);
+}
+
+TEST(RadianceMapFile, HdrHasTheNearestNumbers) {
+  const Folder folder;
+  Film film({.width = 64, .height = 32});
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> mantissa(0.5F, 1), part(0, 1);
+  std::uniform_int_distribution<int> exponent(-20, 20);
+  for (std::uint32_t y = 0; y < 32; ++y) {
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      const float most = std::ldexp(x == 0 ? 0.9999F : mantissa(random), exponent(random));
+      film.at(x, y) = Vec3(most * part(random), most, most * part(random));
+    }
+  }
+  save_image(film, folder / "a.hdr");
+  const LoadedRadianceMap loaded = load_radiance_map(folder / "a.hdr");
+  for (std::uint32_t y = 0; y < 32; ++y) {
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      const Vec3 is = loaded.map->pixels[y * 64 + x], was = film.row(y)[x];
+      // Half of the last place of a number of 8 bits; twice as much where the largest is rounded up
+      // to a power of two.
+      const double unit = std::exp2(std::ceil(std::log2(is.y * 1.0001)) - 8);
+      for (glm::length_t i = 0; i < 3; ++i) ASSERT_LE(std::abs(double{is[i]} - was[i]), unit / 2);
+    }
+  }
+  film.at(0, 0) = Vec3(1.8e38F, 3.4e38F, 1);
+  save_image(film, folder / "a.hdr");
+  EXPECT_EQ(load_radiance_map(folder / "a.hdr").map->pixels[0],
+            Vec3(kMaxRadiance, kMaxRadiance, 0));
+}
+
+TEST(RadianceMapFile, HdrOfAnyOrientationIsUpright) {
+  const Folder folder;
+  constexpr int kWidth = 4, kHeight = 2;
+  for (const bool is_by_column : {false, true}) {
+    for (const bool goes_left : {false, true}) {
+      for (const bool goes_up : {false, true}) {
+        const std::string x_axis = goes_left ? "-X 4" : "+X 4", y_axis = goes_up ? "+Y 2" : "-Y 2";
+        const std::string axes = is_by_column ? x_axis + " " + y_axis : y_axis + " " + x_axis;
+        std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + axes + "\n";
+        for (int i = 0; i < kWidth * kHeight; ++i) {
+          const int column = is_by_column ? i / kHeight : i % kWidth;
+          const int row = is_by_column ? i % kHeight : i / kWidth;
+          const int x = goes_left ? kWidth - 1 - column : column;
+          const int y = goes_up ? kHeight - 1 - row : row;
+          for (const int byte : {x + 1, y + 1, 0, 136}) file += static_cast<char>(byte);
+        }
+        write_bytes(folder / "a.hdr", file);
+        const LoadedRadianceMap loaded = load_radiance_map(folder / "a.hdr");
+        ASSERT_EQ(loaded.map->width, 4U) << axes;
+        ASSERT_EQ(loaded.map->height, 2U) << axes;
+        for (int y = 0; y < kHeight; ++y) {
+          for (int x = 0; x < kWidth; ++x) {
+            const Vec3 is = loaded.map->pixels[static_cast<std::size_t>(y * kWidth + x)];
+            EXPECT_EQ(is, Vec3(x + 1, y + 1, 0)) << axes << ": " << x << "," << y;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(RadianceMapFile, TakesThePartOfAnOpenExrFileThatHasColors) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.exr");
+  const std::string in = (folder / "a.exr").string(), out = (folder / "parts.exr").string();
+  convert(in + " --ch B --chnames Z " + in + " --siappend -o " + out);
+  const LoadedRadianceMap loaded = load_radiance_map(out);
+  EXPECT_TRUE(loaded.warnings.empty());
+  expect_equal(*loaded.map, panorama(), 0);
+}
+
+TEST(RadianceMapFile, RefusesCutOffTiff) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.exr");
+  for (const char* compression : {"none", "lzw", "zip"}) {
+    // The pixels are at the end of the file.
+    const fs::path file = folder / "a.tif";
+    convert((folder / "a.exr").string() + " --resize 256x128 -d float --compression " +
+            compression + " -o " + file.string());
+    const std::string whole = read_bytes(file);
+    ASSERT_EQ(load_radiance_map(file).map->width, 256U);
+    write_bytes(folder / "cut.tif", whole.substr(0, whole.size() / 2));
+    EXPECT_EQ(kind_of(folder / "cut.tif", "can't be decoded"), ErrorKind::io) << compression;
+  }
 }
 
 TEST(RadianceMapFile, BytesAndWordsAreSrgb) {

@@ -2,6 +2,7 @@
 
 #include <csetjmp>
 #include <cstdio>
+#include <jerror.h>
 #include <jpeglib.h>
 
 // Decoding gives the same samples on every machine. libjpeg-turbo's slow integer transform
@@ -30,9 +31,19 @@ void fail(j_common_ptr info) {
   std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
 }
 
+/// Returns true for a warning about something that changes no pixel: unusual headers, and unknown
+/// bytes before the first scan or after the last row, which some cameras write.
+bool is_harmless(j_common_ptr info) {
+  const int code = info->err->msg_code;
+  if (code == JWRN_JFIF_MAJOR || code == JWRN_ADOBE_XFORM) return true;
+  const auto* jpeg = reinterpret_cast<j_decompress_ptr>(info);
+  const bool is_at_end = jpeg->output_height > 0 && jpeg->output_scanline >= jpeg->output_height;
+  return code == JWRN_EXTRANEOUS_DATA && (jpeg->input_scan_number == 0 || is_at_end);
+}
+
 /// Handles a message from libjpeg. Level -1 means damaged data, which is reported only once.
 void take_message(j_common_ptr info, int level) {
-  if (level < 0 && info->err->num_warnings++ == 0) complain(info);
+  if (level < 0 && !is_harmless(info) && info->err->num_warnings++ == 0) complain(info);
 }
 
 /// Limits the number of scans, because a small file can contain very many scans of a large image.

@@ -8,6 +8,9 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfPartType.h>
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -43,10 +46,9 @@ class MemoryFile : public Imf::IStream {
   std::size_t size_, place_ = 0;
 };
 
-/// Returns the names of the color channels: R, G and B outside of layers, or of the first layer
-/// that has all three, and A of the same layer if it exists. For gray images, the name is Y or that
-/// of the only channel.
-std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
+/// Returns the names of R, G and B outside of layers, or of the first layer that has all three, and
+/// of A of the same layer if it exists. Empty if there are no such channels.
+std::vector<std::string> rgb_of(const Imf::ChannelList& channels) {
   std::vector<std::string> layers{""};
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
     const std::string name = channel.name();
@@ -59,6 +61,14 @@ std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
     if (is_there(layer + "A")) names.push_back(layer + "A");
     return names;
   }
+  return {};
+}
+
+/// Returns the names of the color channels. For gray images, the name is Y or that of the only
+/// channel.
+std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
+  std::vector<std::string> rgb = rgb_of(channels);
+  if (!rgb.empty()) return rgb;
   if (channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr)
     throw std::runtime_error("its colors are luminance and chroma; convert it to R, G and B");
   if (channels.findChannel("Y") != nullptr) return {"Y"};
@@ -79,11 +89,9 @@ std::uint32_t length(int first, int last) {
   return static_cast<std::uint32_t>(std::int64_t{last} - first + 1);
 }
 
-void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink) {
-  // Makes OpenEXR reject larger images before it allocates memory for their lines.
-  Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
-  MemoryFile memory(bytes, size);
-  Imf::InputFile file(memory, 0);  // 0: no threads
+/// Reads the colors of a file or of one of its parts.
+template <class File>
+void decode(File& file, const MicrotraceColorSink& sink) {
   const Imf::ChannelList& channels = file.header().channels();
   const std::vector<std::string> names = colors_of(channels);
   for (const std::string& name : names) {
@@ -110,6 +118,32 @@ void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink
   }
   file.setFrameBuffer(pixels);
   file.readPixels(window.min.y, window.max.y);
+}
+
+/// Returns the number of the first part that has colors, or else 0.
+int part_with_colors(const Imf::MultiPartInputFile& file) {
+  for (int part = 0; part < file.parts(); ++part) {
+    const Imf::Header& header = file.header(part);
+    const bool is_deep = header.hasType() && Imf::isDeepData(header.type());
+    if (!is_deep && !rgb_of(header.channels()).empty()) return part;
+  }
+  return 0;
+}
+
+void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink) {
+  // Makes OpenEXR reject larger images before it allocates memory for their lines.
+  Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+  MemoryFile memory(bytes, size);
+  {
+    Imf::MultiPartInputFile parts(memory, 0);  // 0: no threads
+    if (const int part = part_with_colors(parts); part != 0) {
+      Imf::InputPart file(parts, part);
+      return decode(file, sink);
+    }
+  }
+  memory.seekg(0);
+  Imf::InputFile file(memory, 0);
+  decode(file, sink);
 }
 
 }  // namespace

@@ -3,11 +3,17 @@
 
 #include "io/image/module_abi.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -50,6 +56,52 @@ TypeDesc type_of(MicrotraceNumber number) {
   return number == kMicrotraceU16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
 }
 
+/// Returns the orientation of a Radiance file by its resolution line, such as "-Y 512 +X 1024": the
+/// axis of the lines comes first. OpenImageIO confuses 6 and 8.
+int orientation_of_hdr(std::string_view file) {
+  const std::size_t end = file.find("\n\n");
+  const std::string_view line = file.substr(std::min(end, file.size() - 2) + 2);
+  const std::size_t second = line.find_first_of("+-", 1);
+  if (end == file.npos || second == line.npos || line.size() < 2) return 1;
+  const std::string axes{line[0], line[1], line[second], line[second + 1]};
+  constexpr std::array kAxes = {"-Y+X", "-Y-X", "+Y-X", "+Y+X", "+X-Y", "-X-Y", "-X+Y", "+X+Y"};
+  const auto found = std::ranges::find(kAxes, axes);
+  return found == kAxes.end() ? 1 : static_cast<int>(found - kAxes.begin()) + 1;
+}
+
+/// Where the pixels of a file are in the upright picture, by the orientations 1 to 8 of TIFF 6.0,
+/// page 36, which EXIF has too.
+class Orientation {
+ public:
+  Orientation(const ImageSpec& spec, int number)
+      : number_(number),
+        width_(static_cast<std::size_t>(spec.width)),
+        height_(static_cast<std::size_t>(spec.height)) {}
+
+  [[nodiscard]] bool is_upright() const { return number_ < 2 || number_ > 8; }
+  [[nodiscard]] bool is_transposed() const { return number_ > 4 && number_ <= 8; }
+
+  /// Copies pixels of `size` bytes.
+  void turn(const char* stored, char* upright, std::size_t size) const {
+    const bool ends_right = number_ == 2 || number_ == 3 || number_ == 7 || number_ == 8;
+    const bool ends_below = number_ == 3 || number_ == 4 || number_ == 6 || number_ == 7;
+    const std::size_t width = is_transposed() ? height_ : width_;
+    const std::size_t height = is_transposed() ? width_ : height_;
+    for (std::size_t y = 0; y < height; ++y) {
+      for (std::size_t x = 0; x < width; ++x) {
+        const std::size_t column = is_transposed() ? y : x, row = is_transposed() ? x : y;
+        const std::size_t from = (ends_below ? height_ - 1 - row : row) * width_ +
+                                 (ends_right ? width_ - 1 - column : column);
+        std::memcpy(upright + (y * width + x) * size, stored + from * size, size);
+      }
+    }
+  }
+
+ private:
+  int number_;
+  std::size_t width_, height_;
+};
+
 void decode(const void* bytes, std::size_t size, const std::string& extension,
             const MicrotraceColorSink& sink) {
   OIIO::attribute("threads", 1);
@@ -71,18 +123,32 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   const int first = first_color(spec);
   const bool has_alpha = spec.alpha_channel == first + 3 && spec.nchannels > first + 3;
   const int count = spec.nchannels - first < 3 ? 1 : has_alpha ? 4 : 3;
-  const MicrotraceColors colors{.width = static_cast<std::uint32_t>(spec.width),
-                                .height = static_cast<std::uint32_t>(spec.height),
+  const bool is_hdr = std::string_view(reader->format_name()) == "hdr";
+  const std::string_view file(static_cast<const char*>(bytes), size);
+  const Orientation orientation(
+      spec, is_hdr ? orientation_of_hdr(file) : spec.get_int_attribute("Orientation", 1));
+  auto width = static_cast<std::uint32_t>(spec.width);
+  auto height = static_cast<std::uint32_t>(spec.height);
+  if (orientation.is_transposed()) std::swap(width, height);
+  const MicrotraceColors colors{.width = width,
+                                .height = height,
                                 .channels = static_cast<std::uint32_t>(count),
                                 .number = number_of(spec),
                                 .x0 = 0,
                                 .y0 = 0,
-                                .whole_width = static_cast<std::uint32_t>(spec.width),
-                                .whole_height = static_cast<std::uint32_t>(spec.height)};
+                                .whole_width = width,
+                                .whole_height = height};
   void* samples = sink.begin(sink.context, &colors);
   if (samples == nullptr) throw std::runtime_error("it is too large");
-  if (!reader->read_image(0, 0, first, first + count, type_of(colors.number), samples))
+  const TypeDesc type = type_of(colors.number);
+  const std::size_t pixel = type.size() * colors.channels;
+  std::vector<char> stored(orientation.is_upright() ? 0 : pixel * width * height);
+  // For TIFF files that were cut off, only has_error() tells of the missing lines.
+  if (!reader->read_image(0, 0, first, first + count, type,
+                          stored.empty() ? samples : stored.data()) ||
+      reader->has_error())
     throw complaint(reader->geterror());
+  if (!stored.empty()) orientation.turn(stored.data(), static_cast<char*>(samples), pixel);
   reader->close();
 }
 

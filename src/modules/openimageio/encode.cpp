@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <new>
@@ -102,6 +103,25 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
   return spec;
 }
 
+/// Rounds the colors of a picture to the nearest that HDR can store: mantissas of 8 bits with a
+/// common exponent (Ward 1991). The writer would truncate them, and store large ones as black.
+std::vector<float> rounded_for_hdr(const MicrotracePicture& picture, std::size_t channels) {
+  const std::size_t pixels = std::size_t{picture.width} * picture.height;
+  const auto* from = static_cast<const float*>(picture.channels[0].first);
+  std::vector<float> colors(from, from + pixels * channels);
+  const float most = std::ldexp(255.0F, 127 - 8);
+  for (std::size_t i = 0; i < colors.size(); i += channels) {
+    const std::span color(colors.data() + i, channels);
+    for (float& value : color) value = std::min(value, most);
+    int exponent = 0;
+    const float mantissa = std::frexp(*std::ranges::max_element(color), &exponent);
+    if (mantissa * 256 >= 255.5F) ++exponent;
+    for (float& value : color)
+      value = std::ldexp(std::round(std::ldexp(value, 8 - exponent)), exponent - 8);
+  }
+  return colors;
+}
+
 /// Returns the bytes of the file. Throws std::runtime_error with the reason on failure.
 std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::string& extension) {
   const std::unique_ptr<ImageOutput> writer = find_writer(extension);
@@ -115,7 +135,11 @@ std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::s
   bool written = writer->open(name, spec);
   if (written) {
     // The picture has only color channels, whose layout in memory equals the file's.
-    written = writer->write_image(type_of(channels[0].number), channels[0].first);
+    const std::vector<float> rounded = is_float_format(writer->format_name())
+                                           ? rounded_for_hdr(picture, channels.size())
+                                           : std::vector<float>();
+    written = writer->write_image(type_of(channels[0].number),
+                                  rounded.empty() ? channels[0].first : rounded.data());
   }
   if (!writer->close() || !written) throw std::runtime_error(writer->geterror());
   if (memory.buffer().empty()) throw std::runtime_error("OpenImageIO wrote nothing");

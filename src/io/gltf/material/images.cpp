@@ -67,6 +67,12 @@ bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   return false;
 }
 
+/// Returns the place of problems with an image's bytes: the name of its file, if it has one.
+Element place_of(const Element& image) {
+  const JsonValue* uri = image.value->find("uri");
+  return uri == nullptr || is_data_uri(uri->string()) ? image : image.member("uri");
+}
+
 class ImageLoader {
  public:
   ImageLoader(Asset& asset, const BufferViews& views, const ResourceFolders& folders)
@@ -98,15 +104,15 @@ class ImageLoader {
     const bool is_right = uri == nullptr || !is_data_uri(uri->string()) ||
                           check_media_type(asset_, at.member("uri"), header.format);
     if (header.format == ImageFormat::unknown) {
-      problem = {limitation, at, "is neither PNG, JPEG, WebP nor KTX2; "};
+      problem = {limitation, place_of(at), "is neither PNG, JPEG, WebP nor KTX2; "};
       return nullptr;
     }
     if (header.state == ImageHeader::State::damaged) {
-      problem = {damaged_header, at, "holds a damaged image, whose header has no size; "};
+      problem = {damaged_header, place_of(at), "holds a damaged image, whose header has no size; "};
       return nullptr;
     }
     if (header.state == ImageHeader::State::cut_off) {
-      problem = {violation, at, "holds an image that is truncated; "};
+      problem = {violation, place_of(at), "holds an image that is truncated; "};
       return nullptr;
     }
     const std::string type = declared_type(at);
@@ -191,11 +197,12 @@ class ImageLoader {
                   ErrorKind::limit);
     }
     if (!decoded.image) {
-      problem = {ImageProblem::Kind::violation, at, kNotDecoded, ": " + decoded.complaint};
+      problem = {ImageProblem::Kind::violation, place_of(at), kNotDecoded,
+                 ": " + decoded.complaint};
       return nullptr;
     }
     if (!decoded.complaint.empty()) {
-      asset_.tolerate(at, "holds an incomplete image: " + decoded.complaint);
+      asset_.tolerate(place_of(at), "holds an incomplete image: " + decoded.complaint);
     }
     if (const JsonValue* name = at.value->find("name")) decoded.image->name = name->string();
     return std::make_shared<const Image>(std::move(*decoded.image));

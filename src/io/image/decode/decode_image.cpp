@@ -24,10 +24,11 @@ struct Decoding {
   std::exception_ptr failure{};
 };
 
+/// Keeps the last complaint: decoders may complain before they fail.
 void complain(void* context, const char* text) {
   DecodedImage& result = static_cast<Decoding*>(context)->result;
   try {
-    if (result.complaint.empty()) result.complaint = text;
+    result.complaint = text;
   } catch (const std::bad_alloc&) {
     result.too_large = true;
   }
