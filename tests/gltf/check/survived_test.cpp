@@ -108,6 +108,8 @@ const Survived kSurvived[] = {
                          {"buffer": 0, "byteOffset": 96, "byteLength": 72},
                          {"buffer": 0, "byteLength": 0}])",
      "/bufferViews/2/byteLength", "at least 1"},
+    {"/buffers/1", R"({"uri": "data:application/octet-stream;base64,", "byteLength": 0})",
+     "/buffers/1/byteLength", "at least 1"},
     {"/buffers/0/uri", "", "/buffers/0", "has no uri"},
 
     // Scenes

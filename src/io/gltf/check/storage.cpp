@@ -18,9 +18,13 @@ void check_compression(Asset& asset, const Element& at) {
                  "must not be combined with KHR_meshopt_compression; it is ignored");
 }
 
-void check_view(Asset& asset, const Element& at) {
+/// Accepts empty buffers and views: gltfpack writes an empty buffer for an asset without geometry.
+void check_length(Asset& asset, const Element& at) {
   if (at.member("byteLength").value->number() == 0)
     asset.tolerate(at.member("byteLength"), "must be an integer of at least 1, is 0");
+}
+
+void check_view(Asset& asset, const Element& at) {
   const JsonValue* stride = at.value->find("byteStride");
   if (stride == nullptr) return;
   if (stride->number() == 0) {
@@ -73,9 +77,11 @@ void check_accessor(Asset& asset, const Element& at) {
 void check_storage(Asset& asset) {
   for (std::size_t i = 0; i < asset.array("buffers").size(); ++i) {
     check_compression(asset, asset.element("buffers", i));
+    check_length(asset, asset.element("buffers", i));
   }
   for (std::size_t i = 0; i < asset.array("bufferViews").size(); ++i) {
     check_compression(asset, asset.element("bufferViews", i));
+    check_length(asset, asset.element("bufferViews", i));
     check_view(asset, asset.element("bufferViews", i));
   }
   for (std::size_t i = 0; i < asset.array("accessors").size(); ++i) {

@@ -87,7 +87,7 @@ constexpr Rule kAnimationRules[] = {
 
 constexpr Rule kBufferRules[] = {
     {.key = "uri", .form = Form::string},
-    {.key = "byteLength", .form = Form::integer, .required = true, .min = 1},
+    {.key = "byteLength", .form = Form::integer, .required = true, .min = 0},
 };
 constexpr Rule kViewRules[] = {
     index_of("buffer", "buffers", true),
