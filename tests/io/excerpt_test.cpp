@@ -38,6 +38,10 @@ TEST(Excerpt, EscapesTerminalControlBytes) {
   EXPECT_EQ(excerpt("\xE2\x80\xAE!", 3), "\\xe2\\x80\\xae!\n            ^");
   EXPECT_EQ(excerpt("\xFF\xC0\x80!", 3), "\\xff\\xc0\\x80!\n            ^");
   EXPECT_EQ(printable("a\x07"), "a\\x07");
+  // An Arabic letter mark, a soft hyphen, a Hangul filler and a tag letter
+  EXPECT_EQ(printable("\u061C\u00AD"), "\\xd8\\x9c\\xc2\\xad");
+  EXPECT_EQ(printable("\u3164\U000E0041"), "\\xe3\\x85\\xa4\\xf3\\xa0\\x81\\x81");
+  EXPECT_EQ(printable("\u00E9\u2764\uFE0F"), "\u00E9\u2764\uFE0F");
 }
 
 TEST(Excerpt, CutsLongLines) {

@@ -27,10 +27,22 @@ CodePoint decode(std::string_view text) {
   return {value, length};
 }
 
-/// True for control characters, zero-width characters and bidirectional formatting characters.
+struct CodePoints {
+  char32_t first, last;
+};
+
+/// Control characters, bidirectional formatting characters and characters that are invisible: those
+/// with the property Default_Ignorable_Code_Point of Unicode, but for the variation selectors and
+/// joiners that occur in ordinary text.
+constexpr CodePoints kDangerous[] = {
+    {0x00, 0x1F},       {0x7F, 0xA0 - 1},  {0xAD, 0xAD},     {0x61C, 0x61C},   {0x115F, 0x1160},
+    {0x17B4, 0x17B5},   {0x180E, 0x180E},  {0x200B, 0x200F}, {0x2028, 0x202E}, {0x2060, 0x206F},
+    {0x3164, 0x3164},   {0xFEFF, 0xFEFF},  {0xFFA0, 0xFFA0}, {0xFFF0, 0xFFFB}, {0x1BCA0, 0x1BCA3},
+    {0x1D173, 0x1D17A}, {0xE0000, 0xE0FFF}};
+
 bool is_dangerous(char32_t c) {
-  return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x200B && c <= 0x200F) ||
-         (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF;
+  return std::ranges::any_of(kDangerous,
+                             [&](const CodePoints& r) { return c >= r.first && c <= r.last; });
 }
 
 void show_bytes(std::string_view bytes, PrintableText& out) {
