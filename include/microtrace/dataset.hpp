@@ -96,8 +96,16 @@ class MICROTRACE_EXPORT DatasetFolder {
   /// Records that a view is finished: its files, by their names, are complete. Throws Error (io).
   void finish(std::uint32_t view, const std::vector<std::string>& names);
 
-  /// Returns the number of views that are not finished.
+  /// Returns the number of views that are not finished. Views with damaged records count as
+  /// finished.
   [[nodiscard]] std::uint32_t missing() const;
+
+  /// Returns the views whose records are missing or damaged. Reads all records. Throws Error (io).
+  [[nodiscard]] std::vector<std::uint32_t> damaged() const;
+
+  /// True if `manifest.json` is undamaged, lists the files of all views, and the other files that
+  /// it lists are whole.
+  [[nodiscard]] bool is_finished() const;
 
   /// Returns the files that `manifest.json` lists. Throws Error (io), also if it is damaged.
   [[nodiscard]] std::vector<DatasetFile> manifest() const;

@@ -1,4 +1,6 @@
+#include "base/text/printable.hpp"
 #include "dataset/dataset_json.hpp"
+#include "dataset/manifest_reader.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file.hpp"
 
@@ -7,7 +9,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace microtrace {
 namespace {
@@ -21,11 +27,42 @@ DatasetIdentity read_identity(const fs::path& path) {
   return read_own(io::read_regular_file(path, kMaxRecord), path, identity_of);
 }
 
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (!text.empty()) {
+    words.push_back(text.substr(0, text.find(' ')));
+    text.remove_prefix(std::min(words.back().size() + 1, text.size()));
+  }
+  return words;
+}
+
+/// Returns what two lists of options have between their common words at the beginning and at the
+/// end: "--spp=3 instead of --spp=4".
+std::string differing_options(std::string_view a, std::string_view b) {
+  std::vector<std::string_view> ours = words_of(a), theirs = words_of(b);
+  const auto drop_common = [&] {
+    const auto ends = std::ranges::mismatch(ours, theirs);
+    ours.erase(ours.begin(), ends.in1);
+    theirs.erase(theirs.begin(), ends.in2);
+    std::ranges::reverse(ours);
+    std::ranges::reverse(theirs);
+  };
+  drop_common();
+  drop_common();
+  const auto joined = [](std::span<const std::string_view> words) {
+    std::string text;
+    for (const std::string_view word : words)
+      text.append(text.empty() ? "" : " ").append(printable(word));
+    return text.empty() ? "the default" : text;
+  };
+  return joined(ours) + " instead of " + joined(theirs);
+}
+
 /// Returns the first difference between two data sets.
 std::optional<std::string> difference(const DatasetIdentity& a, const DatasetIdentity& b) {
   if (a.program != b.program) return "another version, " + a.program + " instead of " + b.program;
   if (a.scene != b.scene) return "another scene, " + a.scene + " instead of " + b.scene;
-  if (a.options != b.options) return "other options";
+  if (a.options != b.options) return "other options, " + differing_options(a.options, b.options);
   if (a.digest != b.digest)
     return "another content of the scene's or the views' files, or other decoders";
   if (a.views != b.views)
@@ -117,14 +154,17 @@ DatasetFolder::DatasetFolder(fs::path path, const DatasetIdentity& identity)
     : path_(std::move(path)), identity_(identity) {
   create_folder(path_);
   const fs::path file = path_ / "dataset.json";
-  std::error_code error;
-  const bool exists = fs::exists(file, error);
-  if (!exists && !is_unused(path_)) {
+  const auto is_data_set = [&] {
+    std::error_code error;
+    return fs::exists(file, error);
+  };
+  // Another process may start a data set in the same folder at the same time, and may have written
+  // its first view since the first look.
+  if (!is_data_set() && !is_unused(path_) && !is_data_set()) {
     throw Error(ErrorKind::usage, path_.string(),
                 "contains files that are not a data set; name another folder");
   }
-  // Another process may start a data set in the same folder at the same time.
-  if (exists || !write_identity(file, identity)) {
+  if (is_data_set() || !write_identity(file, identity)) {
     if (const auto reason = difference(read_identity(file), identity)) {
       throw Error(ErrorKind::usage, path_.string(),
                   "contains a data set of " + *reason + "; name another folder");
@@ -168,20 +208,28 @@ std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view)
 }
 
 std::vector<DatasetFile> DatasetFolder::manifest() const {
-  const fs::path path = path_ / "manifest.json";
-  std::error_code error;
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    throw Error(ErrorKind::io, path.string(), "is not a regular file");
-  // One line for each file, because a JSON document may have only 2^24 values.
-  std::ifstream lines(path, std::ios::binary);
+  ManifestReader reader(path_);
   std::vector<DatasetFile> files;
-  for (std::string line; std::getline(lines, line);) {
-    if (line == "[" || line == "]" || line.empty()) continue;
-    if (line.back() == ',') line.pop_back();
-    files.push_back(read_own(line, path, read_file_entry));
-  }
-  if (!lines.eof()) throw Error(ErrorKind::io, path.string(), "can't be read");
+  while (std::optional<DatasetFile> file = reader.next()) files.push_back(std::move(*file));
   return files;
+}
+
+bool DatasetFolder::is_finished() const try {
+  ManifestReader manifest(path_);
+  for (std::uint32_t view = 0; view < identity_.views; ++view) {
+    const auto known = files(view);
+    if (!known) return false;
+    for (const DatasetFile& file : *known) {
+      if (manifest.next() != file) return false;
+    }
+  }
+  while (const std::optional<DatasetFile> file = manifest.next()) {
+    if (measure(path_, file->name) != file) return false;
+  }
+  return true;
+} catch (const Error& error) {
+  if (error.kind() != ErrorKind::io) throw;
+  return false;
 }
 
 std::optional<std::string> first_damaged(const fs::path& folder,
@@ -206,6 +254,14 @@ void DatasetFolder::finish(std::uint32_t view, const std::vector<std::string>& n
   write_file(record(view), text += "]}\n");
 }
 
+std::vector<std::uint32_t> DatasetFolder::damaged() const {
+  std::vector<std::uint32_t> views;
+  for (std::uint32_t view = 0; view < identity_.views; ++view) {
+    if (!files(view)) views.push_back(view);
+  }
+  return views;
+}
+
 std::uint32_t DatasetFolder::missing() const {
   std::uint32_t count = 0;
   std::error_code error;
@@ -215,7 +271,7 @@ std::uint32_t DatasetFolder::missing() const {
 }
 
 void DatasetFolder::write_manifest(std::span<const std::string> more) const {
-  io::AtomicFile out(path_ / "manifest.json");
+  io::AtomicFile out(path_ / kManifest);
   std::string_view separator = "[\n";
   const auto add = [&](const DatasetFile& file) {
     std::string text(separator);

@@ -191,6 +191,11 @@ class Dataset(ProgramTest):
             self.assertIn("lacks 1 of 3 views", self.verify(code=5))
             self.dataset("--views", "orbit:3", *SMALL)
             self.assertEqual(self.contents(), whole)
+        # The shard of the record may have ended long ago.
+        (self.folder / "out/records/000001.json").write_bytes(b"")
+        (self.folder / "out/000002.png").unlink()
+        self.assertIn("rendered 2 views", self.dataset("--views", "orbit:3", *SMALL, "--shard", "3/3"))
+        self.assertEqual(self.contents(), whole)
 
     def test_exchanged_records_are_replaced(self):
         self.dataset("--views", "orbit:3", *SMALL)
@@ -256,6 +261,29 @@ class Dataset(ProgramTest):
             self.assertEqual(sorted(process.wait() for process in processes), [0, 2])
             shutil.rmtree(self.folder / "new")
 
+    def test_shards_start_a_folder_together(self):
+        options = ["--views", "random:24", "--size", "4x4", "-t", "1", "-q"]
+        for _ in range(5):
+            processes = [subprocess.Popen([PROGRAM, "dataset", SOURCE / "scenes/triangle.json", "-o", self.folder / "new", *options,
+                                           "--shard", f"{i}/24"], stderr=subprocess.PIPE) for i in range(1, 25)]
+            self.assertEqual([process.communicate()[1] for process in processes], 24 * [b""])
+            self.assertTrue((self.folder / "new/manifest.json").exists())
+            shutil.rmtree(self.folder / "new")
+
+    def test_finished_data_sets_of_other_users_are_left_alone(self):
+        options = ["--views", "orbit:2", *SMALL, "--formats", "png,coco,bop"]
+        self.dataset(*options)
+        names = ("coco.json", "manifest.json", "bop/train/000000/scene_gt.json")
+        before = [(self.folder / "out" / name).stat() for name in names]
+        for shard in ("1/2", "2/2"):
+            self.assertIn("rendered 0 views", self.dataset(*options, "--shard", shard))
+        self.assertEqual([(self.folder / "out" / name).stat()[1:] for name in names], [status[1:] for status in before])
+        whole = self.contents()
+        for name in names:  # a damaged one is written again
+            (self.folder / "out" / name).write_bytes(b"x")
+            self.assertIn("rendered 0 views", self.dataset(*options, "--shard", "1/2"))
+            self.assertEqual(self.contents(), whole)
+
     def test_names_that_are_not_utf_8_are_refused(self):
         scene = self.folder / os.fsdecode(b"\xff.json")
         shutil.copy(SCENE, scene)
@@ -290,9 +318,10 @@ class Dataset(ProgramTest):
         self.dataset(*options)
         whole = self.contents()
         self.dataset(*options, "--formats", "png", "--seed=0")  # the defaults
-        for others, reason in ((["--views", "orbit:3", *SMALL], "other options"),
-                               ([*options, "--background", "#ff0000"], "other options"),
-                               ([*options, "--formats", "exr"], "other options")):
+        for others, reason in ((["--views", "orbit:3", *SMALL], "other options, --views=orbit:2 instead of --views=orbit:3"),
+                               ([*options, "--background", "#ff0000"], "other options, the default instead of --background=#ff0000"),
+                               ([*options, "--formats", "exr"], "other options, the default instead of --formats=exr"),
+                               (["--views", "orbit:2"], "other options, --size=24x16 instead of the default")):
             self.assertIn(reason, self.dataset(*others, code=2))
         link = self.folder / "out/000001.png"
         link.unlink()

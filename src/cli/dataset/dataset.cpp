@@ -159,18 +159,28 @@ void write_dataset(const Arguments& arguments) {
   const std::vector<std::uint32_t> order = dataset.order();
   DatasetFolder folder(arguments.output, dataset.identity());
   const auto progress = progress_of(arguments, static_cast<std::uint32_t>(order.size()));
-  std::size_t rendered = 0;
+  std::size_t rendered = 0, kept = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (!folder.is_whole(order[i])) {
+    if (folder.is_whole(order[i])) {
+      ++kept;
+    } else {
       dataset.render(folder, order[i]);
       ++rendered;
     }
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(order.size()));
   }
   const std::uint32_t missing = folder.missing();
-  if (missing == 0) dataset.finish(folder);
+  if (missing == 0) {
+    // A power failure can damage the records of shards that have ended.
+    for (const std::uint32_t view : folder.damaged()) {
+      dataset.render(folder, view);
+      ++rendered;
+    }
+    // Files that another user has written may be complete but read-only.
+    if (rendered != 0 || !folder.is_finished()) dataset.finish(folder);
+  }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  report(arguments, rendered, order.size() - rendered, missing, seconds.count());
+  report(arguments, rendered, kept, missing, seconds.count());
 }
 
 }  // namespace microtrace::cli
