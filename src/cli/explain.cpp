@@ -1,5 +1,6 @@
 #include "cli/explain.hpp"
 
+#include "base/memory_account.hpp"
 #include "base/text/printable.hpp"
 #include "cli/options/option_value.hpp"
 #include "cli/pictures/camera.hpp"
@@ -12,6 +13,7 @@
 #include <microtrace/memory.hpp>
 #include <microtrace/prepared_scene.hpp>
 
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -48,8 +50,13 @@ void explain_ray(const Arguments& arguments) {
   const PreparedScene scene(std::move(loaded.scene),
                             {.threads = arguments.threads, .memory = &memory});
   ExplainOptions options;
-  if (arguments.explain.is_all)
+  MemoryAccount account(&memory);
+  if (arguments.explain.is_all) {
     options.max_hits = options.max_misses = std::numeric_limits<std::size_t>::max();
+    constexpr std::uint64_t kPerPrimitive = 2048;  // bytes, with the text
+    account.take(kPerPrimitive * scene.bvh().primitives().count(),
+                 "the explanation of all primitives");
+  }
   const std::optional<WorldRay>& ray = arguments.explain.ray;
   const Explanation explanation =
       ray ? explain_in_scene(scene, ray->in_scene(scene.scene().origin), options)

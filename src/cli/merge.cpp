@@ -2,6 +2,7 @@
 
 #include "base/memory_account.hpp"
 #include "base/text/printable.hpp"
+#include "cli/options/option_value.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/pictures/output_paths.hpp"
@@ -67,7 +68,7 @@ bool merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
                    const Denoiser* denoiser) {
   const auto begin = std::chrono::steady_clock::now();
   const ReadFiles inputs;
-  MemoryBudget budget(default_memory_limit());
+  MemoryBudget budget(arguments.memory_limit.value_or(default_memory_limit()));
   MemoryAccount memory(&budget);
   const MemoryScope scope(memory);
   std::vector<std::filesystem::path> files = sequence.checkpoints(index);
@@ -115,8 +116,11 @@ bool merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
 
 void merge_samples(const Arguments& arguments) {
   refuse_automatic_exposure(arguments.display, "merge");
-  if (arguments.output.empty() && arguments.sampling.checkpoint.empty())
-    throw Error(ErrorKind::usage, "", "merge needs --output or --checkpoint");
+  if (arguments.output.empty()) {
+    if (arguments.sampling.checkpoint.empty()) refuse_usage("merge needs --output or --checkpoint");
+    if (arguments.denoises || arguments.display.exposure || arguments.display.tone_map)
+      refuse_usage("without --output, --denoise, --exposure and --tonemap have no effect");
+  }
   const Sequence sequence(arguments);
   check_paths(ReadFiles(), sequence);
   std::optional<Denoiser> denoiser;

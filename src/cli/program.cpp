@@ -12,6 +12,7 @@
 #include "cli/options/parse.hpp"
 #include "cli/options/usage_error.hpp"
 #include "cli/pictures/render_pictures.hpp"
+#include "cli/report/progress_bar.hpp"
 #include "cli/report/standard_output.hpp"
 #include "cli/signals.hpp"
 #include "cli/view/view.hpp"
@@ -31,6 +32,11 @@
 namespace microtrace {
 namespace {
 
+void print_error(const char* message) {
+  cli::clear_progress_bar();
+  std::fprintf(stderr, "error: %s\n", message);
+}
+
 /// Runs a command and returns its exit code. Prints its error, if any.
 template <class Work>
 int exit_code_of(const Work& work) {
@@ -39,13 +45,13 @@ int exit_code_of(const Work& work) {
   } catch (const cli::Interruption& interruption) {
     return 128 + interruption.signal;
   } catch (const Error& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    print_error(error.what());
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "error: out of memory\n");
+    print_error("out of memory");
     return static_cast<int>(ErrorKind::limit);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", printable(error.what()).c_str());
+    print_error(printable(error.what()).c_str());
     return static_cast<int>(ErrorKind::internal);
   }
 }

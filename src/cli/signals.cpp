@@ -1,6 +1,7 @@
 #include "cli/signals.hpp"
 
 #include "base/system/start_threads.hpp"
+#include "cli/report/progress_bar.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>
@@ -31,6 +32,7 @@ static_assert(std::atomic<int>::is_always_lock_free &&
 
 void end_at_once(int signal) {
   remove_unfinished_files();
+  clear_progress_bar();
   _exit(128 + signal);
 }
 
@@ -64,6 +66,7 @@ void end_soon(int signal) {
 void end_at_limit(int /*signal*/) {
   constexpr char kMessage[] = "error: --max-time has elapsed; nothing more is written\n";
   remove_unfinished_files();
+  clear_progress_bar();
   const ssize_t ignored = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
   static_cast<void>(ignored);
   _exit(static_cast<int>(ErrorKind::limit));

@@ -457,6 +457,7 @@ class CommandLine(ProgramTest):
                                    (["--output=--size"], "error: --size: has no extension"),
                                    (["-o", ""], "error: --output: expects a value, is empty\n"),
                                    (["--camera="], "error: --camera: expects a value, is empty\n"),
+                                   (["-o=x.png"], "error: -o: omit the = between a short name and its value\n"),
                                    (["--evil\x1b[31m"], "error: unknown option --evil\\x1b[31m\n")):
             result = self.run_program(SCENE, *arguments)
             self.assertEqual((result.returncode, result.stdout), (2, b""))

@@ -6,6 +6,7 @@ usage: ends_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 
 import json
 import os
+import pty
 import signal
 import subprocess
 import sys
@@ -34,6 +35,26 @@ class Ends(ProgramTest):
                 return
             time.sleep(0.01)
         self.fail("no file is being written")
+
+    # Messages
+
+    def test_messages_replace_the_progress_bar(self):
+        terminal, other_end = pty.openpty()
+        command = [PROGRAM, SOURCE / "scenes/gltf/moving.glb", "--frames", "0:2", "--size", "200x150", "--spp", "400", "-o", "%d.ppm", "-t", "1"]
+        with subprocess.Popen(command, cwd=self.folder, stderr=other_end, env=environment(TERM="xterm")) as process:
+            os.close(other_end)
+            text = b""
+            while True:
+                try:
+                    text += os.read(terminal, 4096)
+                except OSError:  # the program has ended
+                    break
+        os.close(terminal)
+        self.assertEqual(process.returncode, 0)
+        self.assertIn(b"picture 2 of 3", text)
+        self.assertEqual(text.count(b"wrote "), 3)
+        for line in text.split(b"\r"):
+            self.assertFalse(b"left" in line and b"wrote" in line, line)
 
     # Limits
 

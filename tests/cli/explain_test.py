@@ -132,6 +132,15 @@ class Explain(ProgramTest):
 
     # Pictures
 
+    def test_all_primitives_count_toward_the_memory_limit(self):
+        n = 20000
+        scene = self.write("many.gltf", asset([(0, 0, 0), (1, 0, 0), (0, 1, 0)], n * [(0, 1, 2)], {}))
+        options = ["explain", scene, "--ray=5,5,5,0,0,1", "--memory-limit", "20M"]
+        self.assertEqual(self.run_program(*options).returncode, 0)
+        result = self.run_program(*options, "--all")
+        self.assertEqual(result.returncode, 6)
+        self.assertIn(b"the explanation of all primitives: ", result.stderr)
+
     def test_pixels_equal_the_channels_of_pictures(self):
         seen = 0
         for scene, *options in (("perspective1.json",), ("orthographic.json",), ("environment.json",), ("ellipsoid.json",),

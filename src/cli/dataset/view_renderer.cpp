@@ -6,6 +6,7 @@
 #include "cli/options/values.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
+#include "cli/report/unusual_counts.hpp"
 
 #include <microtrace/digest.hpp>
 #include <microtrace/render.hpp>
@@ -217,22 +218,21 @@ void ViewRenderer::save_annotations(const DatasetView& view, const AnnotatedPict
 void ViewRenderer::prepare(const DatasetView& view) {
   load(view);
   if (prepared_) return;
-  prepared_.emplace(scene_, PrepareOptions{.threads = threads(),
+  prepared_.emplace(scene_, PrepareOptions{.threads = arguments_.threads,
                                            .memory = &memory_,
                                            .tables = std::exchange(tables_, nullptr)});
   tables_ = prepared_->tables();
 }
 
-unsigned ViewRenderer::threads() const {
-  return arguments_.threads != 0 ? arguments_.threads : default_threads();
-}
-
 Film ViewRenderer::draw(const Camera& camera, ImageSize size, const std::vector<Aov>& aovs) {
-  const RenderOptions options{.threads = threads(),
+  RenderCounts counts;
+  const unsigned threads = arguments_.threads != 0 ? arguments_.threads : default_threads();
+  const RenderOptions options{.threads = threads,
                               .integrator = integrator_.get(),
                               .samples = arguments_.sampling.samples,
                               .filter = arguments_.sampling.filter,
                               .seed = arguments_.sampling.seed,
+                              .counts = &counts,
                               .memory = &memory_,
                               .aovs = aovs,
                               .sampled_aovs = arguments_.aovs.sampled,
@@ -240,6 +240,7 @@ Film ViewRenderer::draw(const Camera& camera, ImageSize size, const std::vector<
   Film film = denoiser_ ? denoiser_->render(*prepared_, camera, size, options)
                         : microtrace::render(*prepared_, camera, size, options);
   apply_display(film, arguments_.display);
+  if (!arguments_.quiet && !has_warned_) has_warned_ = warn_about(counts, threads);
   return film;
 }
 

@@ -54,7 +54,6 @@ class ViewRenderer {
   /// Returns the options that select the camera of a view that has no camera of its own.
   [[nodiscard]] CameraOptions camera_options(const DatasetView& view, std::uint32_t index) const;
   [[nodiscard]] Camera camera_of(const DatasetView& view, std::uint32_t index, ImageSize size);
-  [[nodiscard]] unsigned threads() const;
   /// Returns the channels from which the annotations are made.
   [[nodiscard]] std::vector<Aov> annotation_channels() const;
   void prepare(const DatasetView& view);
@@ -89,6 +88,7 @@ class ViewRenderer {
   std::shared_ptr<const SharedTables> tables_;
   std::unique_ptr<Integrator> integrator_;
   std::optional<Denoiser> denoiser_;
+  bool has_warned_ = false;  ///< about counts of a rendering
 };
 
 }  // namespace microtrace::cli

@@ -30,6 +30,7 @@ std::vector<OptionGroup> option_groups(Command command) {
   if (command == Command::merge) {
     return {{"Merging", merge_options()},
             {"Display", display_options()},
+            {"Running", rows(running_options(), "--memory-limit", "--memory-limit")},
             {"Messages and help", common_options()}};
   }
   if (command == Command::dataset) {

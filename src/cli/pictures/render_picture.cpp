@@ -7,6 +7,7 @@
 #include "cli/pictures/output_paths.hpp"
 #include "cli/report/progress_bar.hpp"
 #include "cli/report/scene_summary.hpp"
+#include "cli/report/unusual_counts.hpp"
 #include "cli/report/written_files.hpp"
 #include "cli/signals.hpp"
 #include "scene/mesh/mesh_memory.hpp"
@@ -142,6 +143,7 @@ SavedFilm render_and_save(const PreparedScene& scene, const Camera& camera, Imag
   if (film && DelayedSignals::received() == 0)
     return {.film = std::move(*film), .failure = failure};
   if (!arguments.quiet && files.samples->has_samples()) {
+    clear_progress_bar();
     std::fprintf(stderr, "interrupted: the samples are saved in %s\n",
                  printable(files.samples->checkpoint().string()).c_str());
   }
@@ -178,20 +180,6 @@ RenderOptions options_of(const Arguments& arguments, const Integrator& integrato
   if (arguments.denoises && arguments.sampling.shard) add_denoise_features(options);
   if (needs_ids_for_sidecar_only(arguments, files)) options.aovs.push_back(Aov::id);
   return options;
-}
-
-void warn_about(const RenderCounts& counts, unsigned threads) {
-  if (counts.invalid_samples > 0) {
-    std::fprintf(stderr, "warning: %llu samples were not numbers (NaN) and count as black\n",
-                 static_cast<unsigned long long>(counts.invalid_samples));
-  }
-  if (counts.missing_threads > 0) {
-    std::fprintf(
-        stderr,
-        "warning: the system refused to start %u of %u threads (limit on processes or memory); the "
-        "picture is the same but took longer\n",
-        counts.missing_threads, threads);
-  }
 }
 
 }  // namespace

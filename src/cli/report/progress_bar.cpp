@@ -1,5 +1,6 @@
 #include "cli/report/progress_bar.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -31,20 +32,28 @@ void draw(double fraction, double seconds, std::uint32_t pictures) {
   std::fputs("\x1b[K", stderr);
 }
 
+std::atomic<bool> is_drawn = false;
+
 }  // namespace
+
+void clear_progress_bar() {
+  constexpr std::string_view kClear = "\r\x1b[K";
+  if (!is_drawn.exchange(false)) return;
+  const ssize_t ignored = ::write(STDERR_FILENO, kClear.data(), kClear.size());
+  static_cast<void>(ignored);
+}
 
 std::function<void(double)> progress_bar(std::uint32_t pictures) {
   if (!can_draw()) return {};
-  return [pictures, start = Clock::now(), last = Clock::time_point(),
-          drawn = false](double fraction) mutable {
+  return [pictures, start = Clock::now(), last = Clock::time_point()](double fraction) mutable {
     using namespace std::chrono_literals;
     const Clock::time_point now = Clock::now();
     if (fraction >= 1) {
-      if (drawn) std::fputs("\r\x1b[K", stderr);
+      clear_progress_bar();
     } else if (now - start > 500ms && now - last > 100ms) {
       draw(fraction, std::chrono::duration<double>(now - start).count(), pictures);
       last = now;
-      drawn = true;
+      is_drawn = true;
     }
   };
 }

@@ -11,6 +11,10 @@ namespace microtrace::cli {
 /// for progress_lines().
 [[nodiscard]] std::function<void(double)> progress_bar(std::uint32_t pictures);
 
+/// Removes the bar if it is there. Must be called before other text is written to standard error.
+/// May be called by signal handlers.
+void clear_progress_bar();
+
 /// Returns a function that writes lines {"progress": FRACTION, "seconds": SINCE_START} to standard
 /// error: at most ten per second, and one at the end.
 [[nodiscard]] std::function<void(double)> progress_lines();

@@ -2,6 +2,7 @@
 
 #include "base/counted.hpp"
 #include "cli/pictures/camera.hpp"
+#include "cli/report/progress_bar.hpp"
 #include "cli/report/validation_result.hpp"
 #include "scene/material_textures.hpp"
 #include "scene/support.hpp"
@@ -71,6 +72,7 @@ void Warnings::print(const Diagnostic& warning) const {
     return;
   }
   const bool is_error = is_validating_ && warning.severity == Severity::error;
+  clear_progress_bar();
   std::fprintf(stderr, "%s: %s\n", is_error ? "error" : "warning", warning.text().c_str());
 }
 

@@ -3,6 +3,7 @@
 #include "base/counted.hpp"
 #include "base/text/printable.hpp"
 #include "cli/options/option_value.hpp"
+#include "cli/report/progress_bar.hpp"
 
 #include <cstdio>
 #include <string>
@@ -20,6 +21,7 @@ void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t sam
   std::string exposure;
   if (display.srgb && display.exposure != 0)
     exposure = " exposure " + shortest(display.exposure) + ",";
+  clear_progress_bar();
   std::fprintf(stderr, "wrote %s: %u x %u pixels, %s each,%s in %.*f s\n", names.c_str(),
                size.width, size.height, counted(samples, "sample").c_str(), exposure.c_str(),
                seconds < 1 ? 3 : 1, seconds);
