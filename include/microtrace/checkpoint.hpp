@@ -4,6 +4,7 @@
 
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
+#include <microtrace/read_files.hpp>
 #include <microtrace/sample_sums.hpp>
 
 #include <cstdint>
@@ -36,6 +37,12 @@ struct Checkpoint {
 /// written, usage if the path can't name a file.
 MICROTRACE_EXPORT void save_checkpoint(const Checkpoint& checkpoint,
                                        const std::filesystem::path& path);
+
+/// Does the same if the file doesn't exist or is in the state `known`. Returns false if it was
+/// written since, also by another process at the same time. Throws Error as save_checkpoint does.
+[[nodiscard]] MICROTRACE_EXPORT bool replace_checkpoint(const Checkpoint& checkpoint,
+                                                        const std::filesystem::path& path,
+                                                        const FileState& known);
 
 /// Reads a checkpoint. Throws Error: io if the file can't be read, is not a checkpoint, has a
 /// different version, or is damaged; unsupported if the module that decompresses it is missing.

@@ -15,6 +15,7 @@
 #include <poll.h>
 #include <random>
 #include <string>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -208,6 +209,23 @@ bool AtomicFile::commit_new() {
   else
     commit();
   return !exists;
+}
+
+bool AtomicFile::commit_over(const FileState& known) {
+  // Another process that replaces the same file waits, and then finds another file there.
+  const int locked = ::open(target_.c_str(), O_RDWR | O_CLOEXEC);
+  while (locked >= 0 && ::flock(locked, LOCK_EX) != 0 && errno == EINTR) {
+  }
+  const FileState now = state_of(target_);
+  bool is_done = now == known;
+  if (now == FileState{})
+    is_done = commit_new();
+  else if (is_done)
+    commit();
+  else
+    discard();
+  if (locked >= 0) ::close(locked);
+  return is_done;
 }
 
 void AtomicFile::commit() {

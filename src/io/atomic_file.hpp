@@ -4,6 +4,10 @@
 #include <filesystem>
 #include <string_view>
 
+namespace microtrace {
+struct FileState;
+}
+
 namespace microtrace::io {
 
 /// An output file that is being written. It is a temporary file in the target's folder until
@@ -34,6 +38,11 @@ class AtomicFile {
   /// Does the same unless the target exists. Returns false if it does. If several processes commit
   /// the same new target, only one of them gets true, except on file systems without hard links.
   [[nodiscard]] bool commit_new();
+
+  /// Does the same if the target is a file in this state, or doesn't exist. Returns false if it was
+  /// written or replaced since. Of several processes that replace a file of the same state, only
+  /// one gets true, except on file systems without locks (flock) or hard links.
+  [[nodiscard]] bool commit_over(const FileState& known);
 
  private:
   void open_temporary();

@@ -276,6 +276,33 @@ class Samples(ProgramTest):
         self.assertEqual(first.returncode, 5)
         self.assertEqual(self.bytes_of("same"), self.bytes_of("other"))
 
+    def test_one_of_two_programs_keeps_the_checkpoint(self):
+        for before in ("new", "old"):
+            for _ in range(10):
+                if before == "old":
+                    self.render("--spp", "2", "--shard", "1/2", "--checkpoint", "same")
+                command = [PROGRAM, SCENE, *LIGHT, "--spp", "4", "--shard", "1/2", "--checkpoint", "same"]
+                processes = [subprocess.Popen(command, cwd=self.folder, env=environment(), stderr=subprocess.PIPE) for _ in range(2)]
+                messages = [process.communicate()[1] for process in processes]
+                codes = sorted(process.returncode for process in processes)
+                # The second may have started after the first had ended.
+                self.assertIn(codes, ([0, 0], [0, 5]), messages)
+                if codes == [0, 5]:
+                    self.assertTrue(any(b"was written by another program meanwhile" in message for message in messages))
+                self.assertEqual([name for name in os.listdir(self.folder) if name != "same"], [])
+                (self.folder / "same").unlink()
+
+    def test_merging_refuses_options_without_effect(self):
+        self.render("--spp", "4", "--shard", "1/2", "--checkpoint", "part1")
+        self.render("--spp", "4", "--shard", "2/2", "--checkpoint", "part2")
+        for option in (["--denoise"], ["--exposure", "1"], ["--tonemap", "none"]):
+            result = self.run_program("merge", "part1", "part2", "--checkpoint", "all", *option)
+            self.assertEqual((result.returncode, (self.folder / "all").exists()), (2, False), option)
+            self.assertIn(b"without --output", result.stderr)
+        result = self.run_program("merge", "part1", "part2", "-o", "a.ppm", "--memory-limit", "10K")
+        self.assertEqual(result.returncode, 6)
+        self.assertIn(b"raise it (--memory-limit)", result.stderr)
+
     def test_checkpoints_that_cannot_be_written_do_not_cost_the_picture(self):
         expected = self.whole("--spp", "16")
         # The picture fits within this limit of file sizes, the checkpoint doesn't.

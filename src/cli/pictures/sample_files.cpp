@@ -1,5 +1,7 @@
 #include "cli/pictures/sample_files.hpp"
 
+#include "cli/report/progress_bar.hpp"
+
 #include <microtrace/denoise.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>
@@ -99,37 +101,38 @@ void SampleFiles::keep(const Film& film) {
 
 void SampleFiles::save() {
   if (checkpoint_.empty() || !has_samples()) return;
-  refuse_foreign();
-  write();
+  if (!write()) fail_as_foreign();
 }
 
-void SampleFiles::refuse_foreign() const {
-  if (const FileState now = state_of(checkpoint_); now != FileState{} && now != known_)
-    throw Error(
-        ErrorKind::io, checkpoint_.string(),
-        "was written by another program meanwhile; give each one a --checkpoint of its own");
-}
-
-void SampleFiles::write() {
-  save_checkpoint(samples_, checkpoint_);
+bool SampleFiles::write() {
+  if (!replace_checkpoint(samples_, checkpoint_, known_)) return false;
   known_ = state_of(checkpoint_);
+  return true;
+}
+
+void SampleFiles::fail_as_foreign() const {
+  throw Error(ErrorKind::io, checkpoint_.string(),
+              "was written by another program meanwhile; give each one a --checkpoint of its own");
 }
 
 void SampleFiles::save_if_due() {
   const auto now = std::chrono::steady_clock::now();
   if (std::chrono::duration<double>(now - saved_).count() < arguments_.sampling.save_every) return;
-  if (!checkpoint_.empty()) refuse_foreign();
+  bool is_ours = true;
   try {
-    if (!checkpoint_.empty()) write();
-    if (arguments_.sampling.is_progressive)
+    if (!checkpoint_.empty()) is_ours = write();
+    if (is_ours && arguments_.sampling.is_progressive)
       save_image(picture_of(samples_), picture_, arguments_.ppm);
   } catch (const Error& error) {
     // A disk that is full now may have space at the end. Ending here would lose the samples.
     if (error.kind() != ErrorKind::io) throw;
-    if (!has_warned_ && !arguments_.quiet)
+    if (!has_warned_ && !arguments_.quiet) {
+      clear_progress_bar();
       std::fprintf(stderr, "warning: %s; it will be tried again\n", error.what());
+    }
     has_warned_ = true;
   }
+  if (!is_ours) fail_as_foreign();
   saved_ = std::chrono::steady_clock::now();
 }
 

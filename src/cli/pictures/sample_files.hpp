@@ -53,9 +53,9 @@ class SampleFiles {
   [[nodiscard]] const std::filesystem::path& checkpoint() const { return checkpoint_; }
 
  private:
-  /// Throws Error (io) if another program has written the checkpoint.
-  void refuse_foreign() const;
-  void write();
+  /// Writes the checkpoint. Returns false if another program has written it.
+  [[nodiscard]] bool write();
+  [[noreturn]] void fail_as_foreign() const;
   void save_if_due();
 
   const Arguments& arguments_;

@@ -154,12 +154,13 @@ class CheckpointWriter {
     if (!is_computed) std::visit([&](const auto& values) { write_blocks(values); }, channel.values);
   }
 
-  void commit() {
+  /// Writes the end of the file. Returns the file, which must still be committed.
+  io::AtomicFile& end() {
     std::string end;
     append_little(end, digest_.value());
     file_.write(end);
     file_.sync();
-    file_.commit();
+    return file_;
   }
 
  private:
@@ -211,10 +212,8 @@ class BlocksOfFile {
   io::BlockReader blocks_;
 };
 
-}  // namespace
-
-void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path) {
-  CheckpointWriter file(path);
+/// Writes all of the file. Returns it as CheckpointWriter::end() does.
+io::AtomicFile& write_to(CheckpointWriter& file, const Checkpoint& checkpoint) {
   file.write(encode_head(checkpoint));
   file.write_blocks(checkpoint.sums.pixels);
   std::string count;
@@ -223,7 +222,20 @@ void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& 
   for (const Channel& channel : checkpoint.channels) {
     file.write(channel, std::ranges::binary_search(checkpoint.only_for_denoising, channel.name));
   }
-  file.commit();
+  return file.end();
+}
+
+}  // namespace
+
+void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path) {
+  CheckpointWriter file(path);
+  write_to(file, checkpoint).commit();
+}
+
+bool replace_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path,
+                        const FileState& known) {
+  CheckpointWriter file(path);
+  return write_to(file, checkpoint).commit_over(known);
 }
 
 Checkpoint load_checkpoint(const std::filesystem::path& path) {
