@@ -95,8 +95,8 @@ class PageTest(unittest.TestCase):
         self.addCleanup(viewer.__exit__)
         return viewer
 
-    def open(self, viewer, **options):
-        context = self.browser.new_context(viewport={"width": 1280, "height": 900}, **options)
+    def open(self, viewer, width=1280, height=900, **options):
+        context = self.browser.new_context(viewport={"width": width, "height": height}, **options)
         self.addCleanup(context.close)
         page = context.new_page()
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
@@ -194,6 +194,80 @@ class PageTest(unittest.TestCase):
         for number, expected in zip(eye, (0, 0, 10), strict=True):
             self.assertAlmostEqual(number, expected, 5)
 
+    def test_pictures_fit_the_window(self):
+        for size, window in (("300x900", (1280, 700)), ("900x300", (1280, 700)), ("640x480", (1000, 400)), ("300x900", (390, 800))):
+            with self.subTest(size=size, window=window):
+                page = self.open(self.viewer(SCENES / "sphere.json", "--size", size), *window)
+                page.click("#compare")
+                wait_until(lambda page=page: "equal" in page.inner_text("#difference-text"))
+                stage, picture = (page.locator(name).bounding_box() for name in ("#stage", "#picture"))
+                self.assertLessEqual(stage["y"] + stage["height"], window[1])
+                for place, length in (("x", "width"), ("y", "height")):
+                    self.assertGreaterEqual(picture[place], stage[place] - 1)
+                    self.assertLessEqual(picture[place] + picture[length], stage[place] + stage[length] + 1)
+                width, height = map(int, size.split("x"))
+                self.assertAlmostEqual(picture["width"] / picture["height"], width / height, delta=0.02)
+                self.assertLessEqual(page.evaluate("() => document.documentElement.scrollWidth"), window[0])
+                self.keep(page, f"window-{window[0]}x{window[1]}-{size}")
+
+    def test_marker_and_wiper_follow_the_window(self):
+        page = self.open(self.viewer(SCENES / "sphere.json", "--size", "64x48"))
+        page.click("#compare")
+        wait_until(lambda: "equal" in page.inner_text("#difference-text"))
+        page.fill("#x", "40")
+        page.press("#x", "Enter")
+        wait_until(lambda: "pixel\t40, 0" in page.inner_text("#explanation"))
+        for window in ((1280, 900), (1000, 300), (600, 900)):
+            page.set_viewport_size({"width": window[0], "height": window[1]})
+            page.wait_for_timeout(100)
+            picture, line, marker = (page.locator(name).bounding_box() for name in ("#picture", "#wiper-line", "#marker"))
+            self.assertAlmostEqual(line["x"], picture["x"] + picture["width"] / 2, delta=2)
+            self.assertAlmostEqual(line["height"], picture["height"], delta=2)
+            self.assertAlmostEqual(marker["x"] + marker["width"] / 2, picture["x"] + 40.5 / 64 * picture["width"], delta=2)
+
+    def test_held_keys_show_pictures(self):
+        page = self.open(self.viewer(SCENES / "gltf/knot.glb", "--size", "320x240", "--spp", "64"))
+        shown = []
+        page.on("response", lambda response: shown.append(response.url) if "pictures/" in response.url
+                and response.request.method == "GET" and response.status == 200 else None)
+        page.focus("#stage")
+        for _ in range(40):
+            page.keyboard.down("ArrowLeft")  # repeats while it is down
+            page.wait_for_timeout(30)
+        page.keyboard.up("ArrowLeft")
+        self.assertGreater(len(shown), 8)
+        page.wait_for_timeout(300)
+        self.wait_done(page)
+        self.assert_shows(page, SCENES / "gltf/knot.glb")
+
+    def test_two_fingers_zoom_and_shift(self):
+        scene = SCENES / "perspective1.json"
+        page = self.open(self.viewer(scene, "--size", "64x48"), has_touch=True)
+        touch = page.context.new_cdp_session(page)
+        box = page.locator("#picture").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+        def send(kind, *places):
+            points = [{"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(places)]
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        def spread():
+            send("touchStart", (-50, 0))
+            send("touchStart", (-50, 0), (50, 0))
+            for step in range(1, 11):
+                send("touchMove", (-50 - 5 * step, 0), (50 + 5 * step, 0))
+            send("touchEnd")
+
+        self.change(page, spread)
+        self.wait_done(page)
+        words = self.words(page)
+        eye, target = ([float(number) for number in words[words.index(name) + 1].split(",")] for name in ("--eye", "--target"))
+        # The camera at z = 10 turns about the scene's center, which is at z = -0.4. Twice the distance of the fingers is half
+        # the distance from the center. The fingers move one after the other, which shifts the camera to and fro.
+        for number, expected in zip(eye + target, (0, 0, 4.8, 0, 0, -0.4), strict=True):
+            self.assertAlmostEqual(number, expected, delta=0.02)
+        self.assert_shows(page, scene)
+
     def test_camera_far_from_the_origin(self):
         scene = SCENES / "gltf/far.glb"
         page = self.open(self.viewer(scene, "--size", "60x40", "--spp", "1"))
@@ -242,6 +316,47 @@ class PageTest(unittest.TestCase):
                 self.assertTrue((self.folder / "materials.exr").exists())
             else:
                 self.assert_shows(page, scene)
+
+    def test_controls_show_what_applies(self):
+        scene = SCENES / "sky.json"
+        page = self.open(self.viewer(scene, "--size", "64x48", "--spp", "1", "--integrator", "path", "--bsdf", "conserving", "--view", "30,25"))
+        rotation = "[data-option='--env-rotation']"
+        self.assertEqual(page.input_value("[data-option='--bsdf']"), "conserving")
+        self.assertEqual(page.input_value("#camera"), "--view 30,25")
+        self.assertEqual(page.input_value(rotation), "20")  # the scene's own
+        self.change(page, lambda: page.locator(rotation).fill("0"))
+        self.wait_done(page)
+        self.assertIn("--env-rotation 0", " ".join(self.words(page)))
+        self.assert_shows(page, scene)
+        page = self.open(self.viewer(scene, "--size", "64x48", "--spp", "1", "--env-rotation", "200", "--exposure", "20"))
+        self.assertEqual(page.input_value(rotation), "200")
+        self.assertEqual(page.input_value("[data-option='--exposure']"), "20")
+        # Without both lengths, the size is that of the scene, also in the fields.
+        self.change(page, lambda: page.fill("#width", "") or page.locator("#width").blur())
+        self.assertNotIn("--size", self.words(page))
+        self.assertEqual([page.input_value("#width"), page.input_value("#height")], page.inner_text("#status").split(",")[0].split(" x "))
+
+    def test_channels_return_after_the_variance(self):
+        page = self.open(self.viewer(SCENES / "gltf/cube.glb", "--aov", "depth,variance", "--size", "64x48", "--spp", "2"))
+        for name, expected in (("normal", None), ("path", "depth,variance"), ("variance", "variance"), ("path", "depth,variance")):
+            self.change(page, lambda name=name: page.select_option("#integrator", name))
+            words = self.words(page)
+            if expected is not None:
+                self.assertEqual(words[words.index("--aov") + 1], expected)
+
+    def test_only_the_last_question_is_answered(self):
+        page = self.open(self.viewer(SCENES / "perspective1.json", "--size", "64x48"))
+        waiting = []
+        page.route("**/explanation?*", lambda route: waiting.append(route))
+        for x in ("10", "20"):
+            page.fill("#x", x)
+            page.press("#x", "Enter")
+        wait_until(lambda: page.wait_for_timeout(20) or len(waiting) == 2)
+        waiting[1].continue_()
+        wait_until(lambda: "pixel\t20, 0" in page.inner_text("#explanation"))
+        waiting[0].continue_()
+        page.wait_for_timeout(300)
+        self.assertIn("pixel\t20, 0", page.inner_text("#explanation"))
 
     def test_options_that_a_quantity_cannot_apply(self):
         scene = SCENES / "gltf/materials.glb"
@@ -292,6 +407,22 @@ class PageTest(unittest.TestCase):
         page.wait_for_timeout(300)
         self.wait_done(page)
         self.assert_shows(page, scene)
+        # "none" ends playing.
+        page.click("#play")
+        page.select_option("#animation", "")
+        page.wait_for_timeout(300)
+        self.wait_done(page)
+        self.assertNotIn("--time", self.words(page))
+        self.assertEqual(page.inner_text("#play"), "Play")
+
+    def test_scenes_without_animation_are_not_played(self):
+        page = self.open(self.viewer(SCENES / "sphere.json", "--size", "64x48"))
+        request = page.get_attribute("body", "data-request")
+        page.focus("#stage")
+        page.keyboard.press("p")
+        page.wait_for_timeout(300)
+        self.assertEqual(page.get_attribute("body", "data-request"), request)
+        self.assertEqual(page.get_attribute("body", "data-state"), "done")
 
     def test_cameras_are_selected_by_name(self):
         page = self.open(self.viewer(SCENES / "perspective1.json", "--size", "60x40", "--camera", "camera1"))
@@ -338,7 +469,7 @@ class PageTest(unittest.TestCase):
                 expected = json.loads(subprocess.run([PROGRAM, "explain", scene, "--pixel", f"{x},{y}", "--json"], capture_output=True).stdout)
                 box = page.locator("#picture").bounding_box()
                 page.mouse.click(box["x"] + (x + 0.5) * box["width"] / 640, box["y"] + (y + 0.5) * box["height"] / 480)
-                pixel = f"{x + 0.5}, {y + 0.5}"
+                pixel = f"pixel\t{x}, {y}"
                 wait_until(lambda pixel=pixel: pixel in page.inner_text("#explanation"))
                 hits = page.locator("#explanation details[data-t]")
                 shown = [(float(hit.get_attribute("data-t")), hit.get_attribute("data-verdict")) for hit in hits.all()]
@@ -349,7 +480,7 @@ class PageTest(unittest.TestCase):
             page.fill("#x", "320")
             page.fill("#y", "240")
             page.press("#y", "Enter")
-            wait_until(lambda page=page: "320.5, 240.5" in page.inner_text("#explanation"))
+            wait_until(lambda page=page: "pixel\t320, 240" in page.inner_text("#explanation"))
             self.keep(page, f"explained-{scene.stem}")
 
     def test_crop(self):
@@ -361,7 +492,7 @@ class PageTest(unittest.TestCase):
         for x, y in ((20, 10), (33, 14), (39, 19)):
             place = (box["x"] + (x - 20 + 0.5) * box["width"] / 20, box["y"] + (y - 10 + 0.5) * box["height"] / 10)
             page.mouse.click(*place)
-            wait_until(lambda pixel=f"{x + 0.5}, {y + 0.5}": pixel in page.inner_text("#explanation"))
+            wait_until(lambda pixel=f"pixel\t{x}, {y}": pixel in page.inner_text("#explanation"))
             marker = page.locator("#marker").bounding_box()
             for center, length, expected in zip((marker["x"], marker["y"]), (marker["width"], marker["height"]), place, strict=True):
                 self.assertAlmostEqual(center + length / 2, expected, delta=2)
@@ -374,7 +505,7 @@ class PageTest(unittest.TestCase):
         wait_until(lambda: "Right picture" in page.inner_text("#explanation"))
         self.assertGreaterEqual(int(first[1]), 20)
         self.assertGreaterEqual(int(first[2]), 10)
-        self.assertIn(f"{first[1]}.5, {first[2]}.5", page.inner_text("#explanation"))
+        self.assertIn(f"pixel\t{first[1]}, {first[2]}", page.inner_text("#explanation"))
 
     def test_comparison(self):
         scene = SCENES / "perspective1.json"
@@ -431,6 +562,10 @@ class PageTest(unittest.TestCase):
         self.assertNotIn("--time", page.inner_text("#command"))
         self.change(page, lambda: page.select_option("#camera", "--view top"))
         self.assert_shows(page, scenes[1], "#other")
+        # Ending the comparison and opening it again shows the same scenes.
+        for _ in range(2):
+            page.click("#compare")
+        wait_until(lambda: page.inner_text("#name") == str(scenes[1]))
 
     def test_errors_of_two_scenes(self):
         scenes = [self.folder / "a.json", self.folder / "b.json"]

@@ -14,6 +14,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import zlib
@@ -598,11 +599,35 @@ class Pictures(unittest.TestCase):
                 self.assertEqual(read_png(response.body), expected[view])
             ninth = viewer.open()
             self.assertEqual(viewer.request("GET", f"{paths[0]}?after=0").status, 410)  # was not asked for the longest time
+            # So does a request that waits for the next picture, when its picture is replaced.
+            answers = []
+            waiting = [threading.Thread(target=lambda path=path: answers.append(viewer.request("GET", f"{path}?after=99").status))
+                       for path in [*paths[1:], ninth]]
+            for thread in waiting:
+                thread.start()
+            time.sleep(0.5)
+            viewer.open()
+            wait_until(lambda: answers == [410], 5)
+            for path in paths[2:]:
+                self.assertEqual(viewer.request("DELETE", path).status, 204)
             self.assertEqual(viewer.request("DELETE", ninth).status, 204)
             self.assertEqual(viewer.request("GET", f"{ninth}?after=0").status, 410)
+            for thread in waiting:
+                thread.join()
+            self.assertEqual(answers, 8 * [410])
 
 
 class Ends(unittest.TestCase):
+    def test_browsers_that_end_leave_no_zombie(self):
+        environment = dict(os.environ, BROWSER="true", ASAN_OPTIONS="detect_leaks=0")
+        with subprocess.Popen([PROGRAM, "view", SCENES / "sphere.json"], env=environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as process:
+            process.stdout.readline()
+            time.sleep(0.5)
+            wait_until(lambda: not any(children.read_text() for children in Path(f"/proc/{process.pid}/task").glob("*/children")), 10)
+            process.terminate()
+            self.assertEqual(process.wait(timeout=10), 0)
+
     def test_the_browser_outlives_the_program(self):
         with tempfile.TemporaryDirectory() as folder:
             browser, report = Path(folder, "browser"), Path(folder, "report")
@@ -687,7 +712,7 @@ class Ends(unittest.TestCase):
         with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:
             busy = run("view", SCENES / "sphere.json", "--no-browser", "--port", viewer.port, timeout=30)
             self.assertEqual(busy.returncode, 5)
-            self.assertIn(f"port {viewer.port} of 127.0.0.1 can't be used: Address already in use; choose another one", busy.stderr.decode())
+            self.assertIn(f"port {viewer.port} of 127.0.0.1 can't be used: Address already in use; choose another port", busy.stderr.decode())
         for arguments, code in ((["missing.json"], 5), (["-"], 2), ([SCENES / "sphere.json", "--port", "0"], 2), ([], 2),
                                 ([SCENES / "sphere.json", "--camera", "nobody"], 2), ([SCENES / "sphere.json", "-o", "x.png"], 2),
                                 ([SCENES / "sphere.json", "--compare", "-"], 2), ([SCENES / "sphere.json", "--compare", "missing.json"], 5)):

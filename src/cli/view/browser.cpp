@@ -37,6 +37,8 @@ void open_browser(const std::string& address) {
     ::sigfillset(&all);
     ::posix_spawnattr_setsigdefault(&attributes, &all);
     ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF);
+    // Otherwise, the launcher would stay as a zombie. The program has no other children.
+    std::signal(SIGCHLD, SIG_IGN);
     std::array<char*, 3> words{program.data(), argument.data(), nullptr};
     pid_t child = 0;
     static_cast<void>(

@@ -91,6 +91,15 @@ void LivePicture::tick() {
   if (expired) expired->reply({.status = 204});
 }
 
+void LivePicture::answer_poll(const io::HttpResponse& response) {
+  std::optional<Waiting> waiting;
+  {
+    const std::scoped_lock lock(mutex_);
+    waiting = std::exchange(waiting_, std::nullopt);
+  }
+  if (waiting) waiting->reply(response);
+}
+
 std::chrono::duration<double> LivePicture::idle_time() const {
   const std::scoped_lock lock(mutex_);
   return waiting_ ? std::chrono::duration<double>(0) : Clock::now() - last_poll_;

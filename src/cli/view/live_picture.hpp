@@ -44,6 +44,9 @@ class LivePicture {
   /// and draws the picture again if the scene file has changed.
   void tick();
 
+  /// Replies to a call of poll() that is waiting, if there is one.
+  void answer_poll(const io::HttpResponse& response);
+
   /// The time since the last call of poll().
   [[nodiscard]] std::chrono::duration<double> idle_time() const;
 

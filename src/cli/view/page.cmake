@@ -4,7 +4,8 @@ foreach(entry "|text/html|index.html" "style.css|text/css|style.css" "app.js|tex
               "camera.js|text/javascript|camera.js" "options.js|text/javascript|options.js"
               "pixel.js|text/javascript|pixel.js" "server.js|text/javascript|server.js"
               "compare.js|text/javascript|compare.js" "page.js|text/javascript|page.js"
-              "side.js|text/javascript|side.js" "controls.js|text/javascript|controls.js")
+              "side.js|text/javascript|side.js" "controls.js|text/javascript|controls.js"
+              "keep.js|text/javascript|keep.js")
   string(REPLACE "|" ";" parts "${entry}")
   list(GET parts 0 path)
   list(GET parts 1 type)

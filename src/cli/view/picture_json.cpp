@@ -19,6 +19,12 @@ Json array_of(const DVec3& v) {
   return {v.x, v.y, v.z};
 }
 
+/// Returns an angle in degrees. Conversion to radians and back may change the last digits.
+double degrees(double radians) {
+  constexpr double kResolution = 1e-9;
+  return std::round(radians * 180 / std::numbers::pi / kResolution) * kResolution;
+}
+
 /// Strings from files may contain bytes that are not UTF-8, which are replaced.
 std::string text_of(const Json& json, bool is_ascii = false) {
   return json.dump(-1, ' ', is_ascii, Json::error_handler_t::replace);
@@ -98,6 +104,7 @@ std::string error_json(const std::string& error) {
 
 std::string scene_json(const SceneDescription& description, const ShownScene& shown) {
   const Scene& scene = shown.prepared.scene();
+  const Environment environment = scene.environment.value_or(Environment{});
   Json json = object_of(description);
   json.update({{"format", shown.format == SceneFormat::gltf ? "gltf" : "json"},
                {"width", scene.size.width},
@@ -107,6 +114,8 @@ std::string scene_json(const SceneDescription& description, const ShownScene& sh
                {"objects", scene.objects.size()},
                {"primitives", shown.prepared.bvh().primitives().count()},
                {"lights", scene.lights.size()},
+               {"env_rotation", degrees(environment.rotation)},
+               {"env_intensity", environment.intensity},
                {"cameras", Json::array()},
                {"variants", shown.choices.variants},
                {"animations", Json::array()},

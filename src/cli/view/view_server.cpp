@@ -41,6 +41,10 @@ io::HttpResponse busy() {
   return json_response(error_json("the server is busy; try again when it has answered"), 503);
 }
 
+io::HttpResponse closed() {
+  return json_response(error_json("this picture was closed"), 410);
+}
+
 unsigned status_of(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::usage:
@@ -165,8 +169,7 @@ void ViewServer::answer(const io::HttpRequest& request, const io::HttpReply& rep
 void ViewServer::answer_picture(const io::HttpRequest& request, const std::string& id,
                                 const io::HttpReply& reply) {
   const auto found = pictures_.find(id);
-  if (found == pictures_.end())
-    return reply(json_response(error_json("this picture was closed"), 410));
+  if (found == pictures_.end()) return reply(closed());
   LivePicture& picture = *found->second;
   const Query query(request.query);
   if (request.method == "GET") return picture.poll(query.whole_number("after"), reply);
@@ -176,6 +179,7 @@ void ViewServer::answer_picture(const io::HttpRequest& request, const std::strin
     return reply(json_response("{\"request\":" + std::to_string(number) + "}"));
   }
   if (request.method == "DELETE") {
+    picture.answer_poll(closed());
     close_picture(found);
     return reply({.status = 204});
   }
@@ -187,8 +191,10 @@ void ViewServer::open_picture(const io::HttpRequest& request, const io::HttpRepl
   forget_stopped();
   if (stopping_.size() >= kMostPictures) return reply(busy());
   if (pictures_.size() >= kMostPictures) {
-    close_picture(std::ranges::max_element(
-        pictures_, {}, [](const auto& entry) { return entry.second->idle_time().count(); }));
+    const auto oldest = std::ranges::max_element(
+        pictures_, {}, [](const auto& entry) { return entry.second->idle_time().count(); });
+    oldest->second->answer_poll(closed());
+    close_picture(oldest);
   }
   const std::string id = std::to_string(++opened_pictures_);
   pictures_.emplace(id, std::make_unique<LivePicture>(source));

@@ -116,7 +116,7 @@ HttpServer::HttpServer(const Options& options, Handler handle)
     const bool is_taken = code == EADDRINUSE || code == EACCES || code == EADDRNOTAVAIL;
     throw Error(ErrorKind::io, "",
                 "port " + std::to_string(options.port) + " of 127.0.0.1 can't be used: " +
-                    exchanges_->complaint + (is_taken ? "; choose another one with --port" : ""),
+                    exchanges_->complaint + (is_taken ? "; choose another port" : ""),
                 code);
   }
 }

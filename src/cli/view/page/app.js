@@ -8,32 +8,53 @@ const byId = (id) => document.getElementById(id);
 const stage = byId("stage");
 const page = new Page();
 
+let rest = 0;
+
+/** Moves the camera by the wheel or a key, whose last step is only known by the pause after it. */
+function moveByStep(change) {
+  page.move(change, false);
+  clearTimeout(rest);
+  rest = setTimeout(() => page.request(), 150);
+}
+
+/** Returns the center of two fingers, or of one, and the distance between them. */
+function gripOf(fingers) {
+  const [a, b = a] = fingers.values();
+  return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, distance: Math.hypot(a.x - b.x, a.y - b.y) };
+}
+
 function handlePointer() {
   const kClick = 3; // pixels of movement that still count as a click
-  let start = null;
+  const fingers = new Map(); // positions of the mouse, or of up to two fingers, by pointer
+  let hasMoved = false;
+  const placeOf = (event) => ({ x: event.clientX, y: event.clientY });
   stage.addEventListener("pointerdown", (event) => {
-    start = { x: event.clientX, y: event.clientY, moved: false };
+    if (fingers.size === 2) return;
+    hasMoved = fingers.size > 0;
+    fingers.set(event.pointerId, placeOf(event));
     stage.setPointerCapture(event.pointerId);
     stage.focus({ preventScroll: true });
   });
   stage.addEventListener("pointermove", (event) => {
-    if (start === null) return;
-    const dx = event.clientX - start.x;
-    const dy = event.clientY - start.y;
-    if (!start.moved && Math.hypot(dx, dy) < kClick) return;
+    if (!fingers.has(event.pointerId)) return;
+    const former = gripOf(fingers);
+    const { clientX, clientY } = event;
+    if (!hasMoved && Math.hypot(clientX - former.x, clientY - former.y) < kClick) return;
+    hasMoved = true;
+    fingers.set(event.pointerId, placeOf(event));
+    const grip = gripOf(fingers);
     const height = stage.clientHeight;
-    const isShift = event.shiftKey || (event.buttons & 6) !== 0;
+    const [right, up] = [(former.x - grip.x) / height, (grip.y - former.y) / height];
+    const isShift = event.shiftKey || (event.buttons & 6) !== 0 || fingers.size === 2;
     page.move((camera) => {
-      if (isShift) camera.shift(-dx / height, dy / height);
-      else camera.turn((-dx / height) * Math.PI, (dy / height) * Math.PI);
+      if (isShift) camera.shift(right, up);
+      else camera.turn(right * Math.PI, up * Math.PI);
+      if (former.distance > 0 && grip.distance > 0) camera.zoom(former.distance / grip.distance);
     }, false);
-    start = { x: event.clientX, y: event.clientY, moved: true };
   });
   const end = (event) => {
-    if (start === null) return;
-    const { moved } = start;
-    start = null;
-    if (moved) page.request();
+    if (!fingers.delete(event.pointerId) || fingers.size > 0) return;
+    if (hasMoved) page.request();
     else if (event.type === "pointerup") {
       const pixel = page.pixelAt(event);
       if (pixel) page.ask(pixel.x, pixel.y);
@@ -42,12 +63,9 @@ function handlePointer() {
   stage.addEventListener("pointerup", end);
   stage.addEventListener("pointercancel", end);
   stage.addEventListener("contextmenu", (event) => event.preventDefault());
-  let rest = 0;
   stage.addEventListener("wheel", (event) => {
     event.preventDefault();
-    page.move((camera) => camera.zoom(Math.exp(event.deltaY / 1000)), false);
-    clearTimeout(rest);
-    rest = setTimeout(() => page.request(), 150);
+    moveByStep((camera) => camera.zoom(Math.exp(event.deltaY / 1000)));
   }, { passive: false });
 }
 
@@ -62,9 +80,9 @@ function handleKeys() {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (turns[event.key]) {
       const [x, y] = turns[event.key];
-      page.move((camera) => (event.shiftKey ? camera.shift(0.05 * x, 0.05 * y) : camera.turn(step * x, step * y)), true);
+      moveByStep((camera) => (event.shiftKey ? camera.shift(0.05 * x, 0.05 * y) : camera.turn(step * x, step * y)));
     } else if (zooms[event.key]) {
-      page.move((camera) => camera.zoom(zooms[event.key]), true);
+      moveByStep((camera) => camera.zoom(zooms[event.key]));
     } else if (actions[event.key.toLowerCase()]) {
       actions[event.key.toLowerCase()]();
     } else {
@@ -106,6 +124,8 @@ function handleControls() {
     byId("status").textContent = "The program has ended";
     for (const side of page.sides) side.live.close();
   });
+  const observer = new ResizeObserver(() => page.place());
+  for (const id of ["stage", "picture", "other"]) observer.observe(byId(id));
   addEventListener("pagehide", () => page.sides.forEach((side) => side.live.close()));
   addEventListener("pageshow", (event) => event.persisted && location.reload());
 }

@@ -44,8 +44,13 @@ function textOf(difference) {
 export class Comparison {
   first = null; // the first pixel that differs
 
-  show(left, right) {
+  /** Divides the pictures at the wiper. */
+  place(left, right) {
     this.#showWiper(left.canvas, right.canvas);
+  }
+
+  show(left, right) {
+    this.place(left, right);
     if (!left.hasPicture || !right.hasPicture) return;
     const difference = differenceOf(left.canvas, right.canvas, left.status);
     byId("difference-text").textContent = textOf(difference);

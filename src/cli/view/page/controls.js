@@ -1,6 +1,6 @@
 // Shows a scene and the options of a picture in the controls.
 
-import { commandLine, fill, showOptions } from "./options.js";
+import { commandLine, fill, select, showOptions } from "./options.js";
 
 const byId = (id) => document.getElementById(id);
 
@@ -23,6 +23,8 @@ function showScene(scene) {
   const views = scene.views.map((name) => [`--view ${name}`, name]);
   fill(byId("camera"), [...cameras, ...views, ["free", "free"]]);
   const animations = scene.animations.map(({ name }, i) => [String(i), name || String(i)]);
+  byId("env-rotation").dataset.default = scene.env_rotation;
+  byId("env-intensity").placeholder = scene.env_intensity;
   fill(byId("animation"), animations.length > 1 ? [...animations, ["all", "all"]] : animations, "none");
   byId("variant-section").hidden = scene.variants.length === 0;
   byId("animation-section").hidden = scene.animations.length === 0;
@@ -49,7 +51,7 @@ function showCamera(scene, options) {
   if (options.get("--eye") !== undefined) wanted = "free";
   else if (view !== undefined) wanted = `--view ${view}`;
   else if (camera !== undefined) wanted = `--camera ${numberOf(scene.cameras, camera)}`;
-  byId("camera").value = wanted;
+  select(byId("camera"), wanted, view);
   byId("fov").disabled = options.get("--eye") === undefined && options.get("--view") === undefined;
 }
 

@@ -1,6 +1,6 @@
 // The options of one picture, as the words of a command line, and the controls that change them.
 
-/** Options with their values; flags have the value null. */
+/** Options with their values; flags have the value null, and options that are given several times have arrays. */
 export class Options {
   #values = new Map();
   #joined = new Set(); // options whose value is part of the word, as in --ground=0.5
@@ -10,7 +10,9 @@ export class Options {
       const [, name, value] = words[i].match(/^(--[\w-]+)=(.*)$/s) ?? [];
       const hasValue = i + 1 < words.length && !words[i + 1].startsWith("--");
       if (name !== undefined) this.#joined.add(name);
-      this.#values.set(name ?? words[i], value ?? (hasValue ? words[++i] : null));
+      const option = name ?? words[i];
+      const given = value ?? (hasValue ? words[++i] : null);
+      this.#values.set(option, this.#values.has(option) ? [this.#values.get(option), given].flat() : given);
     }
   }
 
@@ -33,10 +35,10 @@ export class Options {
   }
 
   get words() {
-    return [...this.#values].flatMap(([name, value]) => {
+    return [...this.#values].flatMap(([name, values]) => [values].flat().flatMap((value) => {
       if (value === null) return [name];
       return this.#joined.has(name) ? [`${name}=${value}`] : [name, value];
-    });
+    }));
   }
 
   copy() {
@@ -69,6 +71,12 @@ export function commandLine(scene, options) {
   return words.map(quoted).join(" ");
 }
 
+/** Selects a value in a list, to which it is added if it is missing. */
+export function select(list, value, text = value) {
+  if (![...list.options].some((option) => option.value === value)) list.add(new Option(text, value));
+  list.value = value;
+}
+
 /** Fills a selection with values, after one for the default. */
 export function fill(select, values, defaultText = "default") {
   const option = (text, value) => Object.assign(document.createElement("option"), { textContent: text, value });
@@ -82,11 +90,21 @@ function showNumber(control) {
   if (control.type === "range" && text !== null) text.textContent = control.value;
 }
 
-/** Shows the options in the controls with the attribute data-option. Zero is a value of its own if data-explicit is set. */
+/** Moves a slider to a value, which its range is extended to contain. */
+function slide(control, value) {
+  control.min = Math.min(control.min, value);
+  control.max = Math.max(control.max, value);
+  control.value = value;
+}
+
+/**
+ * Shows the options in the controls with the attribute data-option. Without the option, a control shows its attribute
+ * data-default. Zero is a value of its own if data-explicit is set.
+ */
 export function showOptions(options) {
   for (const control of controls()) {
-    const value = options.get(control.dataset.option);
-    if (control.type === "range") control.value = value ?? 0;
+    const value = options.get(control.dataset.option) ?? control.dataset.default;
+    if (control.type === "range") slide(control, Number(value ?? 0));
     else if (control.type === "checkbox") control.checked = value !== undefined && value !== "false";
     else control.value = value ?? "";
     showNumber(control);
@@ -100,7 +118,7 @@ export function onChange(change) {
       showNumber(control);
       const isRange = control.type === "range", isBox = control.type === "checkbox";
       const isZero = isRange && Number(control.value) === 0 && control.dataset.explicit === undefined;
-      const isDefault = isZero || (isBox && !control.checked);
+      const isDefault = isZero || (isBox ? !control.checked : !isRange && control.value === control.dataset.default);
       change(control.dataset.option, isDefault ? "" : isBox ? null : control.value.trim(), isFinal);
     };
     control.addEventListener("change", () => report(true));

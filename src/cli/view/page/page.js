@@ -3,9 +3,10 @@
 import { FreeCamera } from "./camera.js";
 import { Comparison } from "./compare.js";
 import { showCommand, showControls, showWarnings } from "./controls.js";
+import { copyTextOf, savePicture } from "./keep.js";
 import { Options } from "./options.js";
 import { Explanation } from "./pixel.js";
-import { addressOf, send, sendForJson } from "./server.js";
+import { addressOf, sendForJson } from "./server.js";
 import { Side } from "./side.js";
 
 const byId = (id) => document.getElementById(id);
@@ -123,18 +124,14 @@ export class Page {
 
   /** Sets an option of the side that is being edited. */
   set(name, value, isFinal = true) {
-    const { options } = this.side;
-    options.set(name, value);
-    if (name === "--integrator") {
-      const isVariance = value === "variance";
-      options.set("--integrator", isVariance ? "path" : value);
-      options.set("--aov", isVariance ? "variance" : "");
-    }
+    if (name === "--integrator") this.side.integrate(value);
+    else this.side.options.set(name, value);
     this.request(!isFinal);
   }
 
   setSize(width, height) {
     for (const { options } of this.sides) options.set("--size", width && height ? `${width}x${height}` : "");
+    this.#showControls();
     this.request();
   }
 
@@ -144,6 +141,7 @@ export class Page {
       options.set("--animation", value);
       options.set("--time", value === "" ? "" : "0");
     }
+    if (value === "") this.#pause();
     this.#showControls();
     this.request();
   }
@@ -159,19 +157,25 @@ export class Page {
     return this.sides.filter((side) => side.scene.animations.length > 0 && side.has("animations", number));
   }
 
+  /** Plays the animation, or stops it. Has no effect on scenes without one. */
   play() {
-    const end = Number(byId("time").max);
-    byId("play").textContent = this.#playing ? "Play" : "Pause";
     if (this.#playing) {
-      clearInterval(this.#playing);
-      this.#playing = 0;
+      this.#pause();
       this.request();
-      return;
+    } else if (this.#animated("").length > 0) {
+      const start = performance.now() - 1000 * Number(byId("time").value);
+      this.#playing = setInterval(() => {
+        const end = Number(byId("time").max) || 1; // that of the animation selected now
+        this.setTime(((performance.now() - start) / 1000) % end, false);
+      }, 1000 / 24);
+      byId("play").textContent = "Pause";
     }
-    const start = performance.now() - 1000 * Number(byId("time").value);
-    this.#playing = setInterval(() => {
-      this.setTime(((performance.now() - start) / 1000) % (end || 1), false);
-    }, 1000 / 24);
+  }
+
+  #pause() {
+    clearInterval(this.#playing);
+    this.#playing = 0;
+    byId("play").textContent = "Play";
   }
 
   /** Selects the default camera, a camera of the scene, or a view. */
@@ -206,16 +210,17 @@ export class Page {
 
   /** Explains a pixel of the picture; of both pictures if two are compared. */
   async ask(x, y) {
-    this.#asked = { x, y };
+    const asked = { x, y };
+    this.#asked = asked;
     byId("x").value = x;
     byId("y").value = y;
     this.#showMarker();
     try {
       const answers = await Promise.all(this.sides.map(({ options, number }) =>
         sendForJson("POST", addressOf("explanation", { x: x + 0.5, y: y + 0.5, scene: number }), options.words.join("\n"))));
-      this.#explanation.show(answers);
+      if (this.#asked === asked) this.#explanation.show(answers);
     } catch (error) {
-      this.#explanation.fail(error.message);
+      if (this.#asked === asked) this.#explanation.fail(error.message);
     }
   }
 
@@ -239,11 +244,17 @@ export class Page {
     return x >= 0 && y >= 0 && x < status.width && y < status.height ? { x: status.x + x, y: status.y + y } : null;
   }
 
-  /** Shows a second picture of the same scene beside the first, or hides it. */
+  /** Places the marker and the wiper again after the canvases have moved. */
+  place() {
+    if (!byId("marker").hidden && this.side.status !== null) this.#showMarker();
+    if (this.sides.length > 1) this.comparison.place(...this.sides);
+  }
+
+  /** Shows a second picture beside the first, of the other scene file if there is one, or hides it. */
   async compare() {
     const isOpening = this.sides.length === 1;
     if (isOpening) {
-      await this.#openSecond(this.sides[0].number);
+      await this.#openSecond(this.sides[0].scene.scenes - 1);
       this.side.request();
     } else {
       this.sides.pop().close();
@@ -278,14 +289,7 @@ export class Page {
     const button = byId("save");
     button.disabled = true;
     try {
-      const address = addressOf("file", { format: byId("format").value, scene: this.side.number });
-      const response = await send("POST", address, this.side.options.words.join("\n"));
-      const name = /filename="([^"]*)"/.exec(response.headers.get("Content-Disposition"))?.[1] ?? "picture";
-      const link = document.createElement("a");
-      link.href = URL.createObjectURL(await response.blob());
-      link.download = name;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+      await savePicture(this.side, byId("format").value);
     } catch (error) {
       this.#message = error.message;
       this.#showState();
@@ -294,13 +298,7 @@ export class Page {
     }
   }
 
-  async copy() {
-    const text = byId("command").textContent;
-    try {
-      await navigator.clipboard.writeText(text);
-    } catch {
-      // Browsers refuse in frames and for addresses that they don't trust. The text is then selected for the user.
-      getSelection().selectAllChildren(byId("command"));
-    }
+  copy() {
+    return copyTextOf(byId("command"));
   }
 }

@@ -114,7 +114,7 @@ function answerElements(answer) {
   const rest = answer.hit_count - hits.length;
   return [
     element("p", `${result} ${stages.edges + stages.filters} tests in float64, ${stages.grid + stages.dyadic} exact.`),
-    table([["pixel", `${pixel.x}, ${pixel.y}`], ["origin", list(ray.origin)], ["direction", list(ray.direction)],
+    table([["pixel", `${pixel.x - 0.5}, ${pixel.y - 0.5}`], ["origin", list(ray.origin)], ["direction", list(ray.direction)],
       ["interval", `${shown(ray.t_min)} to ${shown(ray.t_max)}`]]),
     ...hits.map(hitDetails),
     ...(rest > 0 ? [element("p", `${rest} more hits are not listed.`)] : []),

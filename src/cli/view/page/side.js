@@ -4,7 +4,7 @@ import { LivePicture, addressOf, sendForJson } from "./server.js";
 
 /** Describes a scene that was not loaded yet. */
 const kNoScene = { name: "", words: [], cameras: [], variants: [], animations: [], integrators: [], tonemaps: [], views: [],
-  warnings: [], center: [0, 0, 0], distance: 1, width: 640, height: 480, scenes: 1 };
+  warnings: [], env_rotation: 0, env_intensity: 1, center: [0, 0, 0], distance: 1, width: 640, height: 480, scenes: 1 };
 
 export class Side {
   scene = kNoScene; // the description of the scene file
@@ -14,6 +14,7 @@ export class Side {
   hasPicture = false;
   hasScene = false; // whether the scene file was ever loaded
   #revision; // of the scene file
+  #channels; // those that were given when "variance" replaced them
 
   /** `number` is that of the scene file. The page has the functions described(side), shown(side) and accepted(side). */
   constructor(page, canvas, number, options) {
@@ -40,6 +41,20 @@ export class Side {
   request(isMoving = false) {
     this.isDone = false;
     this.live.request(this.options.words, isMoving);
+  }
+
+  /** Selects an integrator. "variance" stands for the path tracer's channel of that name, which replaces other channels. */
+  integrate(name) {
+    const { options } = this;
+    const isVariance = name === "variance";
+    const channels = options.get("--aov");
+    options.set("--integrator", isVariance ? "path" : name);
+    if (isVariance) {
+      if (channels !== "variance") this.#channels = channels;
+      options.set("--aov", "variance");
+    } else if (channels === "variance") {
+      options.set("--aov", this.#channels);
+    }
   }
 
   close() {
