@@ -52,6 +52,8 @@ class Viewer:
     def address(self) -> str: ...
     @property
     def port(self) -> int: ...
+    @property
+    def is_closed(self) -> bool: ...
 
 class Prepared:
     def __init__(
@@ -127,7 +129,12 @@ class Solid:
 
 class Dataset:
     def __init__(
-        self, words: Sequence[str], folder: str | PathLike[str], root: str | PathLike[str]
+        self,
+        words: Sequence[str],
+        folder: str | PathLike[str],
+        root: str | PathLike[str],
+        threads: int,
+        /,
     ) -> None: ...
     def order(self) -> list[int]: ...
     def create(self, path: str | PathLike[str], /) -> None: ...

@@ -87,7 +87,8 @@ def _downward(uv: Any) -> Any:
 def _material(source: Any, *, has_uv: bool) -> Material | None:
     if source is None:
         return None
-    if hasattr(source, "to_pbr"):  # SimpleMaterial
+    is_phong = hasattr(source, "to_pbr")  # SimpleMaterial, which has a diffuse color
+    if is_phong:
         source = source.to_pbr()
     result = Material(name=str(getattr(source, "name", None) or ""))
     base = getattr(source, "baseColorFactor", None)
@@ -97,9 +98,9 @@ def _material(source: Any, *, has_uv: bool) -> Material | None:
             factor = factor / 255
         numbers = [float(x) for x in factor] + [1.0] * (4 - len(factor))
         result.base_color_factor = (numbers[0], numbers[1], numbers[2], numbers[3])
-    # If a file specifies no factor, glTF's default of 1 applies.
+    # If a glTF file specifies no factor, its default of 1 applies.
     metallic, roughness = (getattr(source, n, None) for n in ("metallicFactor", "roughnessFactor"))
-    result.metallic_factor = 1.0 if metallic is None else float(metallic)
+    result.metallic_factor = float(not is_phong) if metallic is None else float(metallic)
     result.roughness_factor = 1.0 if roughness is None else float(roughness)
     emissive = getattr(source, "emissiveFactor", None)
     if emissive is not None:

@@ -54,7 +54,9 @@ class Hits(_Arrays):
     """Hits of rays, in arrays of the rays' leading shape. Access to an array that was not requested
     raises AttributeError."""
 
-    _requests = {name: f"add {name!r} to fields" for name in _LAYOUTS}
+    _requests = {name: f"add {name!r} to fields" for name in _LAYOUTS} | {
+        "hit": "it needs one of the fields object, primitive and t"
+    }
 
     t: npt.NDArray[np.float32]  #: in multiples of the direction's length; infinite for misses
     object: npt.NDArray[np.int32]  #: index into Scene.objects; -1 for misses
@@ -78,8 +80,6 @@ class Hits(_Arrays):
             return np.asarray(self.object >= 0)
         if "primitive" in arrays:
             return np.asarray(self.primitive >= 0)
-        if "t" not in arrays:
-            raise AttributeError("hit needs one of the fields object, primitive and t")
         return np.asarray(np.isfinite(self.t))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_array, as_path, as_reals, as_text
+from ._arrays import as_array, as_float32, as_path, as_reals, as_text
 from .errors import warn
 
 
@@ -74,7 +74,7 @@ class RadianceMap:
         array = as_reals(pixels, "pixels")
         if array.ndim != 3 or array.shape[2] != 3 or array.size == 0:
             raise ValueError(f"pixels must have shape (height, width, 3), not {array.shape}")
-        self._data = _core.MapData(np.ascontiguousarray(array, np.float32))
+        self._data = _core.MapData(as_float32(array))
 
     @property
     def pixels(self) -> npt.NDArray[Any]:

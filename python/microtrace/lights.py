@@ -26,7 +26,7 @@ class DirectionalLight(Brief):
 class PointLight(Brief):
     """Light from a point in all directions."""
 
-    position: Vector = (0.0, 0.0, 0.0)  #: world space
+    position: Vector = (0.0, 0.0, 0.0)  #: relative to Scene.origin
     color: Vector = (1.0, 1.0, 1.0)  #: linear Rec. 709
     intensity: float = 1.0  #: candela
     range: float = inf  #: distance at which the light has faded to 0
@@ -38,7 +38,7 @@ class SpotLight(Brief):
     """Light from a point in a cone: full intensity within the inner angle, and none beyond the
     outer."""
 
-    position: Vector = (0.0, 0.0, 0.0)  #: world space
+    position: Vector = (0.0, 0.0, 0.0)  #: relative to Scene.origin
     direction: Vector = (0.0, 0.0, -1.0)  #: direction of the cone's axis; any length
     color: Vector = (1.0, 1.0, 1.0)  #: linear Rec. 709
     intensity: float = 1.0  #: candela along the axis

@@ -177,7 +177,7 @@ class RaycastingScene:
         geometry_ids, primitive_ids, primitive_uvs and primitive_normals."""
         at = self._prepared().closest_point(_numbers(query_points), threads=self._count(nthreads))
         return {
-            "points": _tensor(at.position.astype(np.float32)),
+            "points": _tensor(as_float32(at.position)),
             "geometry_ids": _ids(at.object),
             "primitive_ids": _ids(at.primitive),
             "primitive_uvs": _tensor(at.barycentrics[..., 1:].astype(np.float32)),
@@ -187,7 +187,7 @@ class RaycastingScene:
     def compute_distance(self, query_points: Any, nthreads: int = 0) -> Tensor:
         """Returns the distance of each point from the triangles, float32."""
         at = self._prepared().closest_point(_numbers(query_points), threads=self._count(nthreads))
-        return _tensor(at.distance.astype(np.float32))
+        return _tensor(as_float32(at.distance))
 
     def compute_signed_distance(
         self, query_points: Any, nthreads: int = 0, nsamples: int = 1
@@ -198,7 +198,7 @@ class RaycastingScene:
         prepared = self._prepared()
         distance = prepared.closest_point(points, threads=threads).distance
         inside = prepared._locate(points, None, threads) > 0
-        return _tensor(np.where(inside, -distance, distance).astype(np.float32))
+        return _tensor(as_float32(np.where(inside, -distance, distance)))
 
     def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Tensor:
         """Returns 1 for points inside the triangles or on them, and 0 for others, float32."""

@@ -163,13 +163,15 @@ class Picture(Mapping[str, Array]):
         exposure: float | None = None,
         tone_map: ToneMap | None = None,
     ) -> None:
-        """Writes one picture to .png, .ppm or .exr. The file appears whole or not at all.
+        """Writes one picture, in the format of the name's ending, such as .png, .jpg or .exr. The
+        file appears whole or not at all.
 
         .exr stores color and all other arrays as channels, in the program's layout, and the
         position of a crop in the whole picture. Other formats store only the color. The path "-" is
         standard output, which gets a PPM file.
 
         Raises:
+            KeyError: the color was not rendered.
             ValueError: this is a stack of several pictures.
             FileError: the file can't be written.
         """

@@ -342,7 +342,8 @@ class PreparedScene:
             barycentrics=barycentrics.reshape(*shape, 3),
         )
         if signed:
-            result.sign = -self.locate(flat, object=object, threads=threads).reshape(shape)
+            sides = self.locate(flat, object=object, threads=threads).reshape(shape)
+            result.sign = np.asarray(-sides)  # not a scalar, also for a single point
         return result
 
     def _solid(self, object: int | None) -> _core.Solid:

@@ -37,10 +37,10 @@ from .viewer import View
 class Scene(Brief):
     """Shapes, materials, lights and cameras.
 
-    Everything is plain data in world space. Change it as you like, then call prepare(). Arrays of
-    files' meshes and images are read-only; replace them, or change a copy by copy.deepcopy().
-    Coordinates of shapes and cameras are relative to `origin`, which is (0, 0, 0) unless a file's
-    geometry is far from zero.
+    Everything is plain data. Change it as you like, then call prepare(). Arrays of files' meshes
+    and images are read-only; replace them, or change a copy by copy.deepcopy(). Coordinates of
+    shapes, lights and cameras are relative to `origin`, which is (0, 0, 0) unless a file's geometry
+    is far from zero. Rays and points of queries are in world space.
     """
 
     objects: list[Object] = field(default_factory=list)

@@ -1,4 +1,4 @@
-"""Shapes in world space. Numbers are rounded once to float32."""
+"""Shapes, relative to Scene.origin. Numbers are rounded once to float32."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ FloatArray = npt.NDArray[np.floating[Any]]
 class Mesh(Brief):
     """Indexed triangles. Arrays are not read until the scene is prepared."""
 
-    vertices: npt.ArrayLike  #: (V, 3), world space, or the mesh's own if Object.placement is set
+    #: (V, 3), relative to Scene.origin, or in the mesh's own space if Object.placement is set.
+    vertices: npt.ArrayLike
     faces: npt.ArrayLike  #: (F, 3) integers, counterclockwise as seen from the front
     normals: npt.ArrayLike | None = None  #: (V, 3), unit length or zero; None for flat shading
     #: (V, 4): unit tangent, and handedness 1 or -1. Default: prepare() generates them if the

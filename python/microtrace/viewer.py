@@ -68,7 +68,7 @@ class View:
         self.close()
 
     def __repr__(self) -> str:
-        state = self.url if self._close.alive else "closed"
+        state = "closed" if self._core.is_closed else self.url
         return f"View({state})"
 
     def _repr_html_(self) -> str:

@@ -17,19 +17,24 @@ std::shared_ptr<const void> owner_of(const void* data);
 /// Makes owner_of(data) return the owner.
 void remember_owner(const void* data, const std::shared_ptr<const void>& owner);
 
-/// Returns a read-only NumPy array that shares the values, or None if there are no values.
+/// Returns a read-only NumPy array that shares the values.
 template <class T>
-nb::object to_python(const Array<T>& values) {
+nb::object rows_of(const Array<T>& values) {
   using Number = typename Array<T>::Number;
-  if (values.empty()) return nb::none();
   auto shared = std::make_shared<const Array<T>>(values);
   const T* data = shared->data();
-  remember_owner(data, shared);
+  if (!values.empty()) remember_owner(data, shared);
   const nb::capsule keeper(new std::shared_ptr<const void>(shared), [](void* p) noexcept {
     delete static_cast<std::shared_ptr<const void>*>(p);
   });
   return nb::cast(nb::ndarray<nb::numpy, const Number>(
       data, {shared->size(), sizeof(T) / sizeof(Number)}, keeper));
+}
+
+/// Does the same for an array that may be absent: returns None if there are no values.
+template <class T>
+nb::object to_python(const Array<T>& values) {
+  return values.empty() ? nb::none() : rows_of(values);
 }
 
 /// Converts rows of numbers of type Source. Copies the values, because Python code may change them

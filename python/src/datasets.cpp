@@ -24,14 +24,15 @@ namespace fs = std::filesystem;
 class Dataset {
  public:
   /// If `root` is not empty, files are looked for below it first, by their absolute names. Names in
-  /// the list of views are relative to `folder`.
-  Dataset(std::vector<std::string> words, const fs::path& folder, const fs::path& root)
-      : dataset_(cli::parse_words(cli::Command::dataset, std::move(words)), &warnings_,
-                 [&](const std::string& name) {
-                   const fs::path copy = root / (folder / name).lexically_normal().relative_path();
-                   std::error_code error;
-                   return !root.empty() && fs::exists(copy, error) ? copy.string() : name;
-                 }) {}
+  /// the list of views are relative to `folder`. `threads` are used if the words don't state a
+  /// number.
+  Dataset(std::vector<std::string> words, const fs::path& folder, const fs::path& root,
+          unsigned threads)
+      : dataset_(arguments_of(std::move(words), threads), &warnings_, [&](const std::string& name) {
+          const fs::path copy = root / (folder / name).lexically_normal().relative_path();
+          std::error_code error;
+          return !root.empty() && fs::exists(copy, error) ? copy.string() : name;
+        }) {}
 
   cli::Dataset& dataset() { return dataset_; }
 
@@ -43,6 +44,12 @@ class Dataset {
   }
 
  private:
+  static cli::Arguments arguments_of(std::vector<std::string> words, unsigned threads) {
+    cli::Arguments arguments = cli::parse_words(cli::Command::dataset, std::move(words));
+    if (arguments.threads == 0) arguments.threads = threads;
+    return arguments;
+  }
+
   std::vector<Diagnostic> warnings_;
   cli::Dataset dataset_;
 };
@@ -54,7 +61,7 @@ nb::tuple read(std::vector<std::string> words) {
   run_unlocked([&] {
     const FloatEnvironment environment;
     const ReadFiles files;
-    dataset = std::make_unique<Dataset>(std::move(words), fs::path(), fs::path());
+    dataset = std::make_unique<Dataset>(std::move(words), fs::path(), fs::path(), 0);
     dataset->dataset().read_all();
     for (const auto& [name, state] : files.states()) {
       if (state != FileState{}) names.push_back(name);
@@ -88,7 +95,7 @@ bool is_whole(const fs::path& path, std::uint32_t view) {
 
 void bind_datasets(nb::module_& module) {
   nb::class_<Dataset>(module, "Dataset")
-      .def(nb::init<std::vector<std::string>, fs::path, fs::path>(),
+      .def(nb::init<std::vector<std::string>, fs::path, fs::path, unsigned>(),
            nb::call_guard<nb::gil_scoped_release, FloatEnvironment>())
       .def("order", [](Dataset& self) { return self.dataset().order(); })
       .def("create",

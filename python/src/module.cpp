@@ -29,6 +29,8 @@ void refuse_pickling(nanobind::module_& module) {
 NB_MODULE(unchecked_core, module) {
   using namespace microtrace::python;
   module.attr("version") = MICROTRACE_VERSION_TEXT;
+  // Threads that still run at the exit keep objects alive, which is no fault of theirs.
+  nanobind::set_leak_warnings(false);
   bind_errors(module);
   bind_images(module);
   bind_memory(module);

@@ -226,6 +226,7 @@ struct PictureOptions {
 
 /// Returns what is rendered and how, but not which part of the picture.
 PictureOptions options_of(const Prepared& self, const nb::dict& arguments) {
+  const FloatEnvironment rounding;  // of the colors
   const IntegratorOptions integrator_options =
       integrator_of(nb::cast<std::string>(arguments["integrator"]), arguments);
   const nb::object samples = arguments["spp"], background = arguments["background"];

@@ -142,6 +142,13 @@ class Writer {
   nb::object shape_of(const T& shape) {
     return object_of(shape);
   }
+  nb::object shape_of(const Mesh& mesh) {
+    nb::dict arguments;
+    add_fields(mesh, arguments);
+    arguments["vertices"] = rows_of(mesh.positions);  // required, also if there are none
+    arguments["faces"] = rows_of(mesh.triangles);
+    return make(Class<Mesh>::kModule, Class<Mesh>::kName, arguments);
+  }
   nb::object shape_of(const Quadric& q) {
     nb::dict arguments;
     arguments["coefficients"] = nb::make_tuple(q.a, q.b, q.c, q.d, q.e, q.f, q.g, q.h, q.i, q.j);

@@ -36,8 +36,6 @@ class Calls {
   void cancel() {
     is_canceled_ = true;
     std::unique_lock lock(mutex_);
-    // The objects that threads use at the exit remain.
-    if (count_ != 0) nb::set_leak_warnings(false);
     changed_.wait_for(lock, std::chrono::seconds(5), [&] { return count_ == 0; });
   }
   [[nodiscard]] bool is_canceled() const { return is_canceled_; }
@@ -52,10 +50,9 @@ class Calls {
 Calls calls;
 
 /// Runs in a forked process. The calls of the parent's other threads don't end there, and one of
-/// these threads may have locked the mutex. The objects that they use remain.
+/// these threads may have locked the mutex.
 void forget_calls() {
   new (&calls) Calls;
-  nb::set_leak_warnings(false);
 }
 
 /// A running call.

@@ -34,7 +34,7 @@ cli::Arguments arguments_of(const Prepared& prepared, std::string name,
   if (!allowed_host.empty()) words.push_back("--allow-host=" + allowed_host);
   cli::Arguments arguments = cli::parse_words(cli::Command::view, std::move(words));
   arguments.scene = std::move(name);
-  arguments.view.port = port;
+  if (port != 0) arguments.view.port = port;
   return arguments;
 }
 
@@ -61,6 +61,7 @@ class Viewer {
   }
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] unsigned port() const { return port_; }
+  [[nodiscard]] bool is_closed() const { return is_closed_; }
 
  private:
   void serve() {
@@ -69,6 +70,7 @@ class Viewer {
     } catch (const std::exception&) {
       // The page then reports that the server doesn't answer.
     }
+    is_closed_ = true;  // a button of the page ends it too
   }
 
   std::unique_ptr<cli::ViewServer> server_;  ///< null if it is closed
@@ -95,7 +97,8 @@ void bind_viewer(nb::module_& module) {
            nb::arg("port"), nb::arg("allowed_host"))
       .def("close", &Viewer::close, nb::call_guard<nb::gil_scoped_release>())
       .def_prop_ro("address", &Viewer::address)
-      .def_prop_ro("port", &Viewer::port);
+      .def_prop_ro("port", &Viewer::port)
+      .def_prop_ro("is_closed", &Viewer::is_closed);
 }
 
 }  // namespace microtrace::python

@@ -221,7 +221,7 @@ def test_a_view_that_fails_does_not_break_the_next_one(tmp_path):
         "--size=8x6",
         "--output=.",
     ]
-    renderer = _core.Dataset(words, "", "")
+    renderer = _core.Dataset(words, "", "", 1)
     renderer.create(str(tmp_path / "set"))
     first = renderer.render(str(tmp_path / "set"), 0)
     with pytest.raises(mt.FileError):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import platform
 import signal
 import struct
 import subprocess
@@ -183,6 +184,23 @@ def test_ground(program, tmp_path):
             mt.render(scene, ground=value)
     with pytest.raises(ValueError, match="integrator"):
         mt.render(scene, ground=True, integrator="flat")
+
+
+def test_colors_are_rounded_to_nearest():
+    script = """
+import ctypes, numpy as np, microtrace as mt
+libm = ctypes.CDLL("libm.so.6")
+scene = mt.Scene().prepare()
+def picture():
+    return mt.render(scene, mt.PerspectiveCamera(), (2, 2), background=(0.1, 0.2, 0.3)).color
+usual = picture()
+libm.fesetround(0x400)  # downward, in x86
+other = picture()
+libm.fesetround(0)
+assert np.array_equal(usual, other)
+"""
+    if platform.machine() == "x86_64":
+        subprocess.run([sys.executable, "-c", script], check=True)
 
 
 def test_a_ground_without_a_lowest_point():

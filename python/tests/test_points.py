@@ -49,6 +49,7 @@ def test_closest_point(ball, rng):
     assert (at.distance <= nearest + 1e-6).all()
     assert np.array_equal(at.sign, -ball.locate(points))
     assert np.array_equal(at.signed_distance < 0, at.sign < 0)
+    assert isinstance(ball.closest_point(points[0], signed=True).sign, np.ndarray)
     for name in ("sign", "signed_distance"):
         with pytest.raises(AttributeError, match=f"'{name}' was not requested.*signed=True"):
             getattr(ball.closest_point(points), name)

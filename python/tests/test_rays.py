@@ -153,6 +153,8 @@ def test_fields(ball):
         _ = only.t
     with pytest.raises(AttributeError, match="no attribute 'tee'"):
         _ = only.tee
+    with pytest.raises(AttributeError, match="needs one of the fields object, primitive and t"):
+        _ = ball.intersect(np.zeros((1, 6)), fields="uv").hit
     for other in (copy.copy(only), pickle.loads(pickle.dumps(only))):
         assert other.primitive == only.primitive and not hasattr(other, "t")
     assert repr(only) == "Hits(primitive=<int32 (1,)>)"

@@ -328,7 +328,23 @@ def test_images():
         mt.Image(np.zeros((2, 3)))
     with pytest.raises(mt.SceneError):
         mt.RadianceMap(-np.ones((2, 4, 3)))
+    with pytest.raises(mt.SceneError):
+        mt.RadianceMap(np.full((2, 4, 3), 1e300))  # without a warning of NumPy
     assert np.array_equal(pickle.loads(pickle.dumps(image)).pixels, image.pixels)
+
+
+def test_meshes_without_faces_have_empty_arrays():
+    scene = mt.Scene()
+    scene.add_mesh([], [])
+    shape = mt.Mesh(np.eye(3), np.zeros((0, 3), int), segments=[[0, 1]])
+    scene.objects.append(mt.Object(shape))
+    for _ in range(2):
+        scene = scene.prepare().scene
+        empty, lines = (item.shape for item in scene.objects)
+        for array in (empty.vertices, empty.faces, lines.faces):
+            assert isinstance(array, np.ndarray) and array.shape == (0, 3)
+        assert lines.segments.tolist() == [[0, 1]] and lines.normals is None
+    assert mt.scene_of(lines).prepare().scene.objects[0].shape.faces.shape == (0, 3)
 
 
 def test_vertex_colors():

@@ -281,6 +281,10 @@ def test_scenes():
     plain.visual = trimesh.visual.TextureVisuals(uv=None, material=red)
     material = mt.scene_of(plain).objects[0].material
     assert material.base_color_factor == (1, 0, 0, 1) and material.metallic_factor == 0.5
+    phong = trimesh.visual.material.SimpleMaterial(diffuse=[0, 255, 0, 255])
+    plain.visual = trimesh.visual.TextureVisuals(uv=None, material=phong)
+    material = mt.scene_of(plain).objects[0].material
+    assert material.base_color_factor == (0, 1, 0, 1) and material.metallic_factor == 0
     with pytest.raises(TypeError, match="vertices and faces"):
         mt.scene_of("mesh")
 

@@ -86,6 +86,12 @@ def test_notebook_and_address():
         assert repr(view) == f"View({view.url})"
     assert repr(view) == "View(closed)"
     view.close()
+    ended = triangle().view()
+    send(ended, "POST", "end")
+    deadline = time.monotonic() + 10
+    while repr(ended) != "View(closed)" and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert repr(ended) == "View(closed)"
     with pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(view.url, timeout=5)
 
@@ -98,6 +104,8 @@ def test_two_pages_and_ports():
         assert picture(second, ["--size", "9x9", "--spp", "1"]).shape == (9, 9, 3)
         with pytest.raises(mt.FileError, match="can't be used") as caught:
             scene.view(port=first.port)
+        with pytest.raises(mt.FileError, match="choose another port"):
+            scene.view(f"--port {first.port}")
         assert caught.value.errno == errno.EADDRINUSE
         assert not isinstance(caught.value, FileNotFoundError)
         port = first.port

@@ -92,11 +92,10 @@ class _Views:
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 copy.write_bytes(data)
             words = _moved(content.words, content.folder, self.copies)
-            if not any(word.startswith("--threads") for word in words):
-                words.append(f"--threads={get_worker().state.nthreads}")
             find_denoiser()
             with client_names(self.copies):
-                self._core = _core.Dataset(words, content.folder, self.copies)
+                threads = get_worker().state.nthreads
+                self._core = _core.Dataset(words, content.folder, self.copies, threads)
         except BaseException:
             shutil.rmtree(self.folder, ignore_errors=True)
             raise
