@@ -38,9 +38,10 @@ void check_words(Command command, std::span<char* const> words) {
     if (option == nullptr) continue;
     const std::size_t equals = word.find('=');
     const std::string name(word.substr(0, equals));
-    if (equals == 2) refuse_usage(name + ": omit the = between a short name and its value");
     if (equals != word.npos) {
       if (option->is_switch()) refuse_usage(name + ": takes no value");
+      if (!name.starts_with("--"))
+        refuse_usage(name + ": omit the = between a short name and its value");
       if (equals + 1 == word.size()) refuse_empty(name);
     } else if (!option->is_flag() && i + 1 < words.size() &&
                named_by(command, words[i + 1]) != nullptr) {

@@ -67,7 +67,7 @@ const Mutation kMalformed[] = {
     {"/materials/0/normalTexture", R"({"index": 0})", kInvalid, "/materials/0/normalTexture/index"},
 
     // Buffers and views
-    {"/buffers/0/byteLength", "0"},
+    {"/buffers/0/byteLength", "0", kInvalid, "/bufferViews/0"},
     {"/buffers/0/byteLength", "172"},
     {"/buffers/0/byteLength", "167", kInvalid, "/bufferViews/1"},
     {"/buffers/0/byteLength", "9007199254740992", kLimit},
