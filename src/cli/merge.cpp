@@ -89,8 +89,8 @@ bool merge_picture(const Arguments& arguments, const Sequence& sequence, std::ui
   if (!missing.empty() && !arguments.allows_missing_samples) {
     throw Error(ErrorKind::usage, place,
                 missing +
-                    "; add the checkpoints of the missing shards, or use --partial, also if "
-                    "--target-error or --time-limit ended the run");
+                    "; add the checkpoints of the missing shards, or use --partial, as for runs "
+                    "that --target-error or --time-limit ended");
   }
   if (!missing.empty() && !arguments.quiet)
     std::fprintf(stderr, "warning: %s: %s\n", printable(place).c_str(), missing.c_str());

@@ -411,6 +411,7 @@ class CommandLine(ProgramTest):
         (self.folder / "marge").write_bytes(b"{}")
         for words, message in ((["vieww", "a.glb"], 'unknown command "vieww"; did you mean view?'),
                                (["datset"], 'unknown command "datset"; did you mean dataset?'),
+                               (["completoin", "bash"], 'unknown command "completoin"; did you mean completion?'),
                                (["mergee", "a", "b", "--weights"], 'unknown command "mergee"; did you mean merge?'),
                                (["render", "a.glb"], 'unknown command "render"; to render, name only the scene'),
                                (["marge", "a"], 'unexpected argument "a"'),

@@ -306,6 +306,15 @@ class Dataset(ProgramTest):
                        stderr=subprocess.DEVNULL)
         self.assertIn("other decoders", self.dataset(*options, scene=scene, code=2))
 
+    def test_names_of_scenes_may_look_like_options(self):
+        shutil.copy(SCENE, self.folder / "-x.json")
+        self.dataset("--views", "orbit:2", *SMALL, "--", scene="./-x.json")
+        result = self.run_program("dataset", "-o", "other", "--views", "orbit:2", *SMALL, "--", "-x.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        shutil.rmtree(self.folder / "out")
+        (self.folder / "other").rename(self.folder / "out")
+        self.verify("--redraw", "2")
+
     def test_verification_notices_another_scene(self):
         shutil.copy(SCENE, self.folder / "scene.json")
         self.dataset("--views", "orbit:2", *SMALL, scene="scene.json")

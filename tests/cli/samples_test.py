@@ -60,6 +60,12 @@ class Samples(ProgramTest):
         result = self.run_program(SCENE, "--integrator", "flat", "--quality", "good", "-o", "a.ppm")
         self.assertEqual(result.returncode, 2)
         self.assertIn(b"--quality needs path tracing; use --integrator path", result.stderr)
+        for option in (["--aperture", "0.1", "--focus", "3"], ["--max-depth", "3"], ["--backfaces", "occlude"]):
+            for integrator in ("flat", "depth"):
+                result = self.run_program(SCENE, "--size", "8x6", "--integrator", integrator, *option, "-o", "a.ppm")
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn(f"{option[0]} needs path tracing".encode(), result.stderr)
+                self.assertFalse((self.folder / "a.ppm").exists())
         self.assertFalse((self.folder / "a.ppm").exists())
 
     def test_rendering_continues_from_checkpoints(self):

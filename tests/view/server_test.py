@@ -338,8 +338,8 @@ class Pictures(unittest.TestCase):
     def test_options_that_a_quantity_cannot_apply_are_omitted(self):
         scene = SCENES / "gltf/materials.glb"
         given = ["--ground", "--guiding", "--bsdf", "spec", "--denoise", "--quality", "draft", "--target-error", "0.5",
-                 "--time-limit", "9", "--spp", "4", "--background", "env", "--aov", "variance"]
-        kept = ["--size", "64x48", "--env", "studio", "--max-depth", "3"]
+                 "--time-limit", "9", "--spp", "4", "--background", "env", "--max-depth", "3", "--aov", "variance"]
+        kept = ["--size", "64x48", "--env", "studio"]
         quantity, flat = ["--integrator", "depth"], ["--integrator", "flat"]
         with Viewer(PROGRAM, scene, *kept, *given[:5], *quantity) as viewer:
             words = [*kept, *given, *quantity]

@@ -63,6 +63,31 @@ constexpr std::array kLimitedOptions{
                   .error = channel_error,
                   .omit = [](Arguments& a) { a.aovs.sampled.clear(); },
                   .values = sampled_channels},
+    LimitedOption{.name = "--aperture",
+                  .error =
+                      [](const Arguments& a) {
+                        return path_error(a, a.camera.lens_radius.value_or(0) > 0, "--aperture",
+                                          ", because other pictures have no depth of field");
+                      },
+                  .omit =
+                      [](Arguments& a) {
+                        a.camera.lens_radius.reset();
+                        a.camera.focus.reset();
+                      }},
+    LimitedOption{.name = "--max-depth",
+                  .error =
+                      [](const Arguments& a) {
+                        return path_error(a, a.path.max_depth != PathOptions().max_depth,
+                                          "--max-depth");
+                      },
+                  .omit = [](Arguments& a) { a.path.max_depth = PathOptions().max_depth; }},
+    LimitedOption{.name = "--backfaces",
+                  .error =
+                      [](const Arguments& a) {
+                        return path_error(a, a.path.backfaces != PathOptions().backfaces,
+                                          "--backfaces");
+                      },
+                  .omit = [](Arguments& a) { a.path.backfaces = PathOptions().backfaces; }},
     LimitedOption{.name = "--ground",
                   .error =
                       [](const Arguments& a) {

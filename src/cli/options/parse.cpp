@@ -143,7 +143,7 @@ void identify_dataset(const std::vector<Given>& all, DatasetOptions& dataset) {
     if (std::ranges::find(kNotOfFiles, option->name()) != kNotOfFiles.end()) continue;
     if (is_of_run(*option) || is_default(given)) continue;
     for (const std::string& value : values) {
-      std::string argument = value;
+      std::string argument = value.starts_with('-') ? "./" + value : value;  // the scene's name
       if (!option->is_positional()) {
         argument = option->name();
         if (!option->is_switch()) argument.append("=").append(value);
@@ -275,8 +275,6 @@ Arguments parse_words(Command command, std::vector<std::string> words) {
     return parse_with(parser, command, static_cast<int>(pointers.size()), pointers.data());
   } catch (const CLI::CallForHelp&) {
     refuse_usage("--help: not available here");
-  } catch (const CLI::CallForVersion&) {
-    refuse_usage("--version: not available here");
   } catch (const CLI::ParseError& error) {
     refuse_usage(message_of(command, parser.app(), error));
   }

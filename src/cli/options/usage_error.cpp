@@ -118,8 +118,8 @@ std::string message_of(Command command, const CLI::App& app, const CLI::ParseErr
 std::optional<std::string> complaint_about_command(const std::string& word) {
   std::error_code error;
   if (word.starts_with('-') || std::filesystem::exists(word, error)) return std::nullopt;
-  std::array<std::string_view, kCommands.size()> names;
-  std::ranges::transform(kCommands, names.begin(), name_of);
+  std::array<std::string_view, kCommands.size() + 1> names{"completion"};
+  std::ranges::transform(kCommands, names.begin() + 1, name_of);
   const std::string_view nearest = nearest_name(word, names);
   if (nearest.empty()) return std::nullopt;
   std::string message = "unknown command " + in_quotes(word);

@@ -1,5 +1,5 @@
 #include "base/memory_account.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/file.hpp"
 #include "io/image/decode/decode_colors.hpp"
 #include "scene/math/srgb.hpp"
@@ -75,11 +75,11 @@ LoadedRadianceMap load_radiance_map(const std::filesystem::path& path, MemoryBud
   const FloatEnvironment environment;
   MemoryAccount work(memory);
   const MemoryScope scope(work);
-  const io::DecodedColors decoded = io::decode_colors(
-      io::read_regular_file(path, io::kMaxFileSize), path,
-      {.what = "an environment",
-       .hint = "an environment must be a latitude-longitude map such as .hdr or .exr",
-       .otherwise = "use an environment without a file"});
+  const io::DecodedColors decoded =
+      io::decode_colors(io::read_regular_file(path, io::kMaxFileSize), path,
+                        {.what = "an environment",
+                         .hint = "save it again as a plain .exr or .hdr file",
+                         .otherwise = "use an environment without a file"});
   const MicrotraceColors& colors = decoded.colors;
   RadianceMap map{.width = colors.whole_width, .height = colors.whole_height};
   MemoryAccount memory_of_map(memory);
