@@ -27,7 +27,7 @@ namespace microtrace {
 /// T must consist of numbers of one type without padding: Vec2, Vec3, Vec4, or a std::array of
 /// integers.
 ///
-/// Arrays are as thread-safe as std::vector, also if they share their values. Borrowed memory must
+/// Arrays are as thread-safe as std::vector, even if they share their values. Borrowed memory must
 /// not change while any array that refers to it is read.
 template <class T>
 class Array {

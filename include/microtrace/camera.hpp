@@ -4,8 +4,8 @@
 /// To add a camera, add a struct here and to the variant `Camera`, its rays in
 /// src/scene/camera.cpp, its rules in src/scene/validate/validate.cpp, its reader in
 /// src/io/scene_json/camera.cpp, its name in src/io/sidecar/describe_picture.cpp, its members in
-/// docs/scene.schema.json and docs/scene-format.md, and golden rays in
-/// tests/unit/scene/camera_test.cpp. A camera with a lens also needs its case in
+/// docs/scene.schema.json and docs/scene-format.md, its class in python/microtrace and python/src,
+/// and golden rays in tests/unit/scene/camera_test.cpp. A camera with a lens also needs its case in
 /// RayGenerator::through_lens.
 
 #include <microtrace/export.hpp>

@@ -79,8 +79,8 @@ class MICROTRACE_EXPORT DatasetFolder {
   /// Creates the folder, or continues with an existing one. Throws Error: usage if the folder
   /// contains a different data set, or other files but no data set; io.
   DatasetFolder(std::filesystem::path path, const DatasetIdentity& identity);
-  /// Opens an existing data set. Throws Error (io), also if there is none or dataset.json is
-  /// damaged.
+  /// Opens an existing data set. Throws Error (io) if there is none, or if dataset.json can't be
+  /// read or is damaged.
   explicit DatasetFolder(std::filesystem::path path);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -107,7 +107,7 @@ class MICROTRACE_EXPORT DatasetFolder {
   /// it lists are whole.
   [[nodiscard]] bool is_finished() const;
 
-  /// Returns the files that `manifest.json` lists. Throws Error (io), also if it is damaged.
+  /// Returns the files that `manifest.json` lists. Throws Error (io), for example if it is damaged.
   [[nodiscard]] std::vector<DatasetFile> manifest() const;
 
   /// Writes `manifest.json`, the list of all files of finished views and of the files `more`, with

@@ -26,8 +26,8 @@ struct FlatOptions {};
 /// AovIntegrator, which shows that quantity.
 ///
 /// To add an integrator, add its options here, its construction in src/render/defaults.cpp, its
-/// name in src/cli/options/values.cpp and src/capi/pictures.cpp, its help text in
-/// src/cli/options/sampling_options.cpp, and a line in docs/command-line.md.
+/// name in src/cli/options/values.cpp, src/capi/pictures.cpp and python/src/pictures.cpp, its help
+/// text in src/cli/options/sampling_options.cpp, and a line in docs/command-line.md.
 using IntegratorOptions = std::variant<FlatOptions, PathOptions, Aov>;
 
 [[nodiscard]] MICROTRACE_EXPORT std::unique_ptr<Integrator> make_integrator(

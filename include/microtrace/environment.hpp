@@ -29,7 +29,8 @@ struct Studio {};
 /// To add a kind of environment, add a struct to the variant `content`, its radiance in
 /// src/render/lights/environment_light.cpp, its readers in src/io/scene_json/light.cpp and
 /// src/cli/options/light_options.cpp, its members in docs/scene.schema.json and
-/// docs/scene-format.md, and a line in docs/light.md.
+/// docs/scene-format.md, its class in python/microtrace and python/src, and a line in
+/// docs/light.md.
 struct Environment {
   /// A Vec3 is uniform radiance, linear Rec. 709. Maps are never null.
   std::variant<Vec3, std::shared_ptr<const RadianceMap>, Studio> content{Vec3{1}};

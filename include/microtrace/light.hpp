@@ -4,8 +4,8 @@
 ///
 /// To add a light, add a struct here and to the variant `Light`, its sampling and bounds in
 /// src/render/lights/punctual.cpp, its readers in src/io/gltf/scene/lights.cpp and
-/// src/io/scene_json/light.cpp, its members in docs/scene.schema.json and docs/scene-format.md, and
-/// a test in tests/statistical/path_test.cpp.
+/// src/io/scene_json/light.cpp, its members in docs/scene.schema.json and docs/scene-format.md, its
+/// class in python/microtrace and python/src, and a test in tests/statistical/path_test.cpp.
 
 #include <microtrace/math.hpp>
 

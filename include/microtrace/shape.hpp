@@ -9,8 +9,9 @@
 /// src/accel/spawn, its bounds in src/scene/support.hpp, its surface in
 /// src/scene/surface_interaction.cpp, its rules in src/scene/validate/validate.cpp, its reader in
 /// src/io/scene_json/shape.cpp, its name in src/scene/shape_name.hpp, its numbers in
-/// src/explain/numbers.cpp, its members in docs/scene.schema.json and docs/scene-format.md, a scene
-/// in scenes, and an oracle test in tests/oracle.
+/// src/explain/numbers.cpp, its members in docs/scene.schema.json and docs/scene-format.md, its
+/// class in python/microtrace and python/src, a scene in scenes, and an oracle test in
+/// tests/oracle.
 
 #include <microtrace/array.hpp>
 #include <microtrace/export.hpp>

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+Vector = tuple[float, float, float]
+
 
 class Brief:
     """Gives a dataclass a repr() that omits defaults and shows the shapes of arrays. Refuses

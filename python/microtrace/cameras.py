@@ -11,9 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arrays import as_real, as_reals, as_size, as_vector
-from ._brief import Brief
-
-Vector = tuple[float, float, float]
+from ._brief import Brief, Vector
 
 
 @dataclass(eq=False, repr=False, kw_only=True)

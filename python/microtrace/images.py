@@ -121,8 +121,8 @@ def _direct(pixels: Any) -> Any:
 
 
 def load_map(path: str | bytes | PathLike[str]) -> RadianceMap:
-    """Reads a latitude-longitude map from .exr or, if OpenImageIO is installed, .hdr and other
-    formats.
+    """Reads a latitude-longitude map from .exr or, if the package was built with OpenImageIO, .hdr
+    and other formats. `pip install` builds it without.
 
     Warns:
         SceneWarning: values are out of range and were clamped.

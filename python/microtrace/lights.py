@@ -6,10 +6,8 @@ from dataclasses import dataclass
 from math import inf, pi
 from typing import Literal
 
-from ._brief import Brief
+from ._brief import Brief, Vector
 from .images import RadianceMap
-
-Vector = tuple[float, float, float]
 
 
 @dataclass(eq=False, repr=False)

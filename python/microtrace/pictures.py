@@ -65,6 +65,11 @@ _QUANTITIES: dict[str, tuple[int, bool]] = {
 }
 
 
+def _layout(name: str, transparent: bool) -> tuple[int, bool]:
+    """Returns the number of an array's channels, and whether they are integers."""
+    return (4 if transparent else 3, False) if name == "color" else _QUANTITIES[name]
+
+
 class Picture(Mapping[str, Array]):
     """Rendered arrays by name. They are also attributes: `picture["depth"] is picture.depth`.
 
@@ -163,8 +168,9 @@ class Picture(Mapping[str, Array]):
         exposure: float | None = None,
         tone_map: ToneMap | None = None,
     ) -> None:
-        """Writes one picture, in the format of the name's ending, such as .png, .jpg or .exr. The
-        file appears whole or not at all.
+        """Writes one picture to .png, .ppm, .exr or, if the package was built with OpenImageIO,
+        .jpg and other formats. `pip install` builds it without. The file appears whole or not at
+        all.
 
         .exr stores color and all other arrays as channels, in the program's layout, and the
         position of a crop in the whole picture. Other formats store only the color. The path "-" is
@@ -292,9 +298,9 @@ def render(
         integrator: "path" for path tracing or "flat" for base colors without lighting. Default: the
             scene's integrator.
         environment: replaces the scene's environment.
-        background: replaces the scene's background, also if it is the scene's environment; linear
+        background: replaces the scene's background, even if it is the scene's environment; linear
             Rec. 709, from 0 to 1.
-        transparent: omits the background, also if it is the scene's environment, and adds alpha to
+        transparent: omits the background, even if it is the scene's environment, and adds alpha to
             the color.
         filter: the pixel filter.
         seed: random seed. Different seeds give different noise.
@@ -360,9 +366,7 @@ def render(
         width, height = crop[2] - crop[0], crop[3] - crop[1]
     arrays: dict[str, Array] = {}
     for name in names:
-        channels, is_integer = (
-            (4 if transparent else 3, False) if name == "color" else _QUANTITIES[name]
-        )
+        channels, is_integer = _layout(name, transparent)
         shape = (len(cameras), height, width, channels)
         arrays[name] = _core.picture_array(shape, is_integer)
     arguments = {

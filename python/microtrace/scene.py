@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 import operator
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -23,8 +24,8 @@ from ._arrays import (
     as_rows,
     as_text,
 )
-from ._brief import Brief
-from .cameras import Camera, Vector
+from ._brief import Brief, Vector
+from .cameras import Camera
 from .errors import warn
 from .lights import Environment, Light
 from .materials import Material
@@ -207,7 +208,9 @@ def _transform(mesh: Mesh, matrix: npt.NDArray[Any]) -> None:
     a, b, c = m[:3, 0], m[:3, 1], m[:3, 2]
     mesh.vertices = _rotated((a, b, c), np.asarray(mesh.vertices)) + m[:3, 3]
     cofactors = (_cross(b, c), _cross(c, a), _cross(a, b))
-    is_mirrored = float((a * cofactors[0]).sum()) < 0
+    volume = float((a * cofactors[0]).sum())
+    # Below rotations, a scale of 0 gives a volume of either sign, by rounding.
+    is_mirrored = volume < -1e-12 * math.prod(math.hypot(*v) for v in (a, b, c))
     if mesh.normals is not None:
         normals = _rotated(cofactors, np.asarray(mesh.normals)) * (-1 if is_mirrored else 1)
         squares = normals[:, 0] ** 2 + normals[:, 1] ** 2 + normals[:, 2] ** 2

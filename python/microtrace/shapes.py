@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._brief import Brief
+from ._brief import Brief, Vector
 from .materials import Material
 
-Vector = tuple[float, float, float]
 FloatArray = npt.NDArray[np.floating[Any]]
 
 

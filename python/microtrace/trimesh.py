@@ -124,7 +124,7 @@ class RayMeshIntersector:
         return RayMeshIntersector(self.mesh)
 
     def __deepcopy__(self, memo: Any) -> RayMeshIntersector:
-        return RayMeshIntersector(self.mesh)
+        return self.__copy__()
 
     def _prepared(self) -> PreparedScene:
         key = hash(self.mesh)

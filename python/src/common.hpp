@@ -20,6 +20,7 @@ nb::object member(const char* module, const char* name);
 
 /// Converts a diagnostic to microtrace.errors.Diagnostic.
 nb::object to_python(const Diagnostic& diagnostic);
+nb::list to_python(const std::vector<Diagnostic>& diagnostics);
 
 /// Runs f() without the interpreter's lock, on a separate thread if the calling thread's stack is
 /// too small for tracing rays.

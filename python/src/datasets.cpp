@@ -1,9 +1,9 @@
 /// Binds the parts of the command `microtrace dataset`, for microtrace.distributed.
 
+#include "base/system/float_environment.hpp"
 #include "cli/dataset/dataset.hpp"
 #include "cli/options/parse.hpp"
 #include "common.hpp"
-#include "float_environment.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -36,12 +36,7 @@ class Dataset {
 
   cli::Dataset& dataset() { return dataset_; }
 
-  nb::list take_warnings() {
-    nb::list result;
-    for (const Diagnostic& warning : std::exchange(warnings_, {}))
-      result.append(to_python(warning));
-    return result;
-  }
+  nb::list take_warnings() { return to_python(std::exchange(warnings_, {})); }
 
  private:
   static cli::Arguments arguments_of(std::vector<std::string> words, unsigned threads) {

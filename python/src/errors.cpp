@@ -26,6 +26,12 @@ nb::object to_python(const Diagnostic& diagnostic) {
                                         text_of(diagnostic.message), text_of(diagnostic.text()));
 }
 
+nb::list to_python(const std::vector<Diagnostic>& diagnostics) {
+  nb::list result;
+  for (const Diagnostic& diagnostic : diagnostics) result.append(to_python(diagnostic));
+  return result;
+}
+
 namespace {
 
 /// Sets the Python exception for an error.

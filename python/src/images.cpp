@@ -87,9 +87,7 @@ void bind_images(nb::module_& module) {
   module.def("load_map", [](const std::filesystem::path& path) {
     LoadedRadianceMap loaded;
     run_unlocked([&] { loaded = load_radiance_map(path); });
-    nb::list warnings;
-    for (const Diagnostic& warning : loaded.warnings) warnings.append(to_python(warning));
-    return nb::make_tuple(SharedMap{std::move(loaded.map)}, warnings);
+    return nb::make_tuple(SharedMap{std::move(loaded.map)}, to_python(loaded.warnings));
   });
 }
 

@@ -1,7 +1,7 @@
 /// Renders into NumPy arrays, and saves pictures.
 
+#include "base/system/float_environment.hpp"
 #include "common.hpp"
-#include "float_environment.hpp"
 #include "io/image/encode/eight_bits.hpp"
 #include "prepared.hpp"
 #include "scene_reader.hpp"

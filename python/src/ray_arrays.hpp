@@ -1,8 +1,8 @@
 #pragma once
 /// Converts rays and hits from and to NumPy arrays.
 
+#include "base/system/float_environment.hpp"
 #include "common.hpp"
-#include "float_environment.hpp"
 #include "prepared.hpp"
 
 #include <limits>

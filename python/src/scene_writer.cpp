@@ -145,7 +145,7 @@ class Writer {
   nb::object shape_of(const Mesh& mesh) {
     nb::dict arguments;
     add_fields(mesh, arguments);
-    arguments["vertices"] = rows_of(mesh.positions);  // required, also if there are none
+    arguments["vertices"] = rows_of(mesh.positions);  // required, even if there are none
     arguments["faces"] = rows_of(mesh.triangles);
     return make(Class<Mesh>::kModule, Class<Mesh>::kName, arguments);
   }

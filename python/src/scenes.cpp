@@ -1,7 +1,7 @@
 /// Binds loading and preparing of scenes.
 
+#include "base/system/float_environment.hpp"
 #include "common.hpp"
-#include "float_environment.hpp"
 #include "member_names.hpp"
 #include "prepared.hpp"
 #include "scene/math/srgb.hpp"
@@ -59,10 +59,9 @@ nb::tuple at(SharedFile& shared, std::optional<double> time) {
     const std::scoped_lock lock(shared.mutex);
     loaded = shared.file.at(time);
   });
-  nb::list warnings;
-  for (const Diagnostic& warning : loaded.warnings) warnings.append(to_python(warning));
   const bool is_json = loaded.format == SceneFormat::json;
-  return nb::make_tuple(scene_to_python(loaded.scene, is_json, is_json), warnings);
+  return nb::make_tuple(scene_to_python(loaded.scene, is_json, is_json),
+                        to_python(loaded.warnings));
 }
 
 void prepare(Prepared* self, const nb::object& source, const nb::object& previous, unsigned threads,

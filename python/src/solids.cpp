@@ -27,23 +27,24 @@ void query(unsigned threads, const F& f) {
   });
 }
 
-void locate(const Solid& self, const Points& points, const Output<std::int8_t>& sides,
+/// A Solid with its scene, which provides the indices of objects.
+struct SolidOf {
+  Solid solid;
+  PreparedScene scene;
+};
+
+void locate(const SolidOf& self, const Points& points, const Output<std::int8_t>& sides,
             unsigned threads) {
   std::vector<Location> locations(points.shape(0));
-  query(threads,
-        [&](const QueryOptions& options) { self.locate(span_of(points), locations, options); });
+  query(threads, [&](const QueryOptions& options) {
+    self.solid.locate(span_of(points), locations, options);
+  });
   std::int8_t* to = sides.data();
   for (const Location location : locations)
     *to++ = static_cast<std::int8_t>(location == Location::inside     ? 1
                                      : location == Location::boundary ? 0
                                                                       : -1);
 }
-
-/// A Solid with its scene, which provides the indices of objects.
-struct SolidOf {
-  Solid solid;
-  PreparedScene scene;
-};
 
 void nearest(const SolidOf& self, const Points& points, const Output<double>& position,
              const Output<double>& distance, const Output<std::int32_t>& object,
@@ -101,8 +102,7 @@ void bind_solids(nb::module_& module) {
              return is_closed;
            })
       .def("open_edges", &open_edges)
-      .def("locate", [](const SolidOf& self, const Points& points, const Output<std::int8_t>& sides,
-                        unsigned threads) { locate(self.solid, points, sides, threads); })
+      .def("locate", &locate)
       .def("nearest", &nearest);
 }
 

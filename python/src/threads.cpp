@@ -1,7 +1,8 @@
 #include "base/shared_range.hpp"
+#include "base/system/float_environment.hpp"
+#include "base/system/processors.hpp"
 #include "base/system/start_threads.hpp"
 #include "common.hpp"
-#include "float_environment.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -163,7 +164,7 @@ void for_each_block(std::size_t count, unsigned threads,
     run_unlocked([&] { work([] { return false; }); });
   } else {
     run_interruptible([&](const std::function<bool()>& cancel) {
-      const std::size_t wanted = threads != 0 ? threads : default_threads();
+      const std::size_t wanted = thread_count(threads);
       const auto helpers = static_cast<unsigned>(std::min(wanted, block_count) - 1);
       const auto started = start_threads(helpers, [&] { work(cancel); });
       work(cancel);

@@ -14,8 +14,8 @@
 #include "accel/spawn/fast_spawn.hpp"
 #include "accel/spawn/spawn_among.hpp"
 #include "accel/stage_counts.hpp"
+#include "base/system/float_environment.hpp"
 #include "exact/intersect.hpp"
-#include "float_environment.hpp"
 
 #include <microtrace/bvh.hpp>
 

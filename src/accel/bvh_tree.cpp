@@ -2,7 +2,7 @@
 
 #include "accel/build/instances/instances.hpp"
 #include "accel/build/instances/mesh_tree.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 
 #include <microtrace/error.hpp>
 

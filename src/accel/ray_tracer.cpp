@@ -5,7 +5,7 @@
 #include "accel/resolve/hit_resolver.hpp"
 #include "accel/resolve/open_side.hpp"
 #include "accel/stage_counts.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "simd/lane_count.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 /// The contents of the opaque handles of the C API, and the error handling of its functions.
 
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>

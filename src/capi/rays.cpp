@@ -1,8 +1,7 @@
 #include "base/shared_range.hpp"
+#include "base/system/processors.hpp"
 #include "base/system/start_threads.hpp"
 #include "capi/handles.hpp"
-
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <initializer_list>
@@ -34,8 +33,7 @@ template <class F>
 void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
   SharedRange blocks(count, kBlock);
   const std::size_t most = (count + kBlock - 1) / kBlock;
-  const std::size_t wanted =
-      std::min<std::size_t>(threads != 0 ? threads : default_threads(), most);
+  const std::size_t wanted = std::min<std::size_t>(thread_count(threads), most);
   run_on_threads(static_cast<unsigned>(wanted), nullptr, [&] { blocks.take(f); });
   blocks.rethrow();
 }

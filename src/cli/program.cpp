@@ -1,5 +1,6 @@
 #include "cli/program.hpp"
 
+#include "base/system/float_environment.hpp"
 #include "base/system/start_threads.hpp"
 #include "base/text/printable.hpp"
 #include "cli/arguments.hpp"
@@ -16,7 +17,6 @@
 #include "cli/report/standard_output.hpp"
 #include "cli/signals.hpp"
 #include "cli/view/view.hpp"
-#include "float_environment.hpp"
 
 #include <microtrace/error.hpp>
 

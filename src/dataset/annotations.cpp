@@ -18,11 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-dataset::CategoryBy category_by(CocoCategories kind) {
-  return kind == CocoCategories::materials ? dataset::CategoryBy::material_name
-                                           : dataset::CategoryBy::object_name;
-}
-
 std::vector<std::uint32_t> objects_of(const AnnotatedPicture& picture) {
   std::vector<std::uint32_t> objects(picture.ids.size());
   // The id 0 becomes kNoObject.
@@ -82,23 +77,19 @@ Annotations annotate(const PreparedScene& scene, const AnnotatedPicture& picture
   }
   Annotations result;
   if (formats.coco) {
-    result.coco = dataset::coco_part(view, category_by(formats.coco->categories), visible,
+    result.coco = dataset::coco_part(view, formats.coco->categories, visible,
                                      formats.coco->amodal ? &amodal : nullptr);
   }
   if (formats.bop_depth_scale) {
-    dataset::BopView bop = dataset::bop_view(view, dataset::BopFrames(scene.scene()), visible,
-                                             amodal, {.depth_scale = *formats.bop_depth_scale});
-    result.bop.part = std::move(bop.part);
-    result.bop.warnings = std::move(bop.warnings);
-    for (dataset::NamedBytes& file : bop.files)
-      result.bop.files.push_back({std::move(file.name), std::move(file.bytes)});
+    result.bop = dataset::bop_view(view, dataset::BopFrames(scene.scene()), visible, amodal,
+                                   {.depth_scale = *formats.bop_depth_scale});
   }
   return result;
 }
 
 void join_coco(std::span<const fs::path> parts, const Scene& scene, CocoCategories categories,
                const fs::path& output) {
-  dataset::Categories of_scene(category_by(categories));
+  dataset::Categories of_scene(categories);
   of_scene.add(scene);
   write_joined(output, [&](const auto& out) {
     dataset::join_coco(of_scene, parts.size(), reader_of(parts), out);
@@ -124,7 +115,7 @@ std::vector<NamedFile> bop_models(const Scene& scene) {
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
     std::optional<dataset::BopModel> model = dataset::bop_model(scene, i, frames);
     if (!model) continue;
-    files.push_back({std::move(model->file.name), std::move(model->file.bytes)});
+    files.push_back(std::move(model->file));
     models.push_back(std::move(*model));
   }
   files.push_back({"models/models_info.json", dataset::bop_models_info(models)});

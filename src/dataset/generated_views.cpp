@@ -1,5 +1,5 @@
 #include "base/split_mix.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "scene/math/trigonometry.hpp"
 
 #include <microtrace/dataset.hpp>

@@ -1,7 +1,7 @@
 #include "base/memory_account.hpp"
+#include "base/system/float_environment.hpp"
 #include "denoise/filters.hpp"
 #include "denoise/library.hpp"
-#include "float_environment.hpp"
 
 #include <microtrace/denoise.hpp>
 #include <microtrace/error.hpp>

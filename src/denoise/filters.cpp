@@ -1,9 +1,9 @@
 #include "denoise/filters.hpp"
 
+#include "base/system/processors.hpp"
 #include "base/system/start_threads.hpp"
 
 #include <microtrace/error.hpp>
-#include <microtrace/threads.hpp>
 
 #include <string>
 
@@ -23,7 +23,7 @@ bool ProgressMonitor::goes_on(void* context, double /*share*/) {
 Filters::Filters(const OidnFunctions& functions, ImageSize size, const RenderOptions& options)
     : f_(functions), size_(size), monitor_{.progress = options.progress} {
   // The library ends the process if the system refuses a thread.
-  const unsigned wanted = options.threads != 0 ? options.threads : default_threads();
+  const unsigned wanted = thread_count(options.threads);
   device_ = oidn::open_device(f_, can_start_threads(wanted) ? wanted : 1);
 }
 

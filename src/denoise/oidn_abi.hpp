@@ -41,6 +41,6 @@ inline constexpr char kFileName[] = "libOpenImageDenoise.so.2";
 inline constexpr int kCpu = 1;     ///< a device type
 inline constexpr int kFloat3 = 3;  ///< an image format
 // Errors:
-inline constexpr int kOutOfMemory = 4, kUnsupportedHardware = 5, kCanceled = 6;
+inline constexpr int kOutOfMemory = 4, kCanceled = 6;
 
 }  // namespace microtrace::oidn

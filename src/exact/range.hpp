@@ -1,6 +1,6 @@
 #pragma once
-/// Functions that several shapes share: tests whether numbers are finite and whether they lie in
-/// the ray's closed interval, and the roots of a quadratic polynomial.
+/// Functions that several shapes share: tests whether a hit lies in the ray's closed interval, and
+/// the roots of a quadratic polynomial.
 
 #include "base/finite.hpp"
 #include "exact/numbers/root.hpp"

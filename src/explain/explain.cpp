@@ -1,7 +1,7 @@
+#include "base/system/float_environment.hpp"
 #include "exact/intersect.hpp"
 #include "explain/numbers.hpp"
 #include "explain/primitive.hpp"
-#include "float_environment.hpp"
 #include "render/camera_rays.hpp"
 #include "render/compositing.hpp"
 #include "render/view.hpp"

@@ -1,5 +1,5 @@
 #include "base/memory_account.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/file.hpp"
 #include "io/file_name.hpp"
 #include "io/gltf/scene/scene.hpp"

@@ -1,6 +1,6 @@
 #include "io/module_function.hpp"
 
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/elf_file.hpp"
 #include "io/module_folders.hpp"
 

@@ -3,8 +3,8 @@
 #include "accel/filters/shape_filter.hpp"
 #include "accel/resolve/exact_hits.hpp"
 #include "accel/resolve/hit_resolver.hpp"
+#include "base/system/float_environment.hpp"
 #include "exact/intersect.hpp"
-#include "float_environment.hpp"
 #include "queries/duplicates.hpp"
 #include "queries/kernels/dispatch.hpp"
 #include "queries/ray_search.hpp"
@@ -56,8 +56,8 @@ class HitFinder {
       return order < 0 || (order == 0 && a.id < b.id);
     });
     const auto rounded_t = [&](const BoundedHit& hit) {
-      const auto below = static_cast<float>(hit.lo), above = static_cast<float>(hit.hi);
-      return below == above ? below : exactly.t(hit.id);
+      const auto t = exact::rounded({.lo = hit.lo, .hi = hit.hi});
+      return t ? *t : exactly.t(hit.id);
     };
     if (tree_.duplicates.empty()) {
       for (const BoundedHit& hit : found_) hits.push_back({.id = hit.id, .t = rounded_t(hit)});

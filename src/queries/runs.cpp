@@ -1,9 +1,8 @@
 #include "queries/runs.hpp"
 
 #include "base/shared_range.hpp"
+#include "base/system/processors.hpp"
 #include "base/system/start_threads.hpp"
-
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -42,7 +41,7 @@ void for_each_run(
       done += last - first;
     });
   };
-  const std::uint64_t wanted = options.threads != 0 ? options.threads : default_threads();
+  const std::uint64_t wanted = thread_count(options.threads);
   const auto threads =
       static_cast<unsigned>(std::clamp<std::uint64_t>((count + run - 1) / run, 1, wanted));
   run_on_threads(threads, options.run_threads, work);

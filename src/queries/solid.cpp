@@ -1,6 +1,6 @@
 #include "accel/bvh_tree.hpp"
 #include "base/lazy.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "queries/kernels/dispatch.hpp"
 #include "queries/locator.hpp"
 #include "queries/nearest_search.hpp"

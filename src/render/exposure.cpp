@@ -1,4 +1,4 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "scene/math/exponential.hpp"
 
 #include <microtrace/exposure.hpp>

@@ -1,5 +1,5 @@
 #include "base/runs.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "scene/math/exponential.hpp"
 #include "scene/tone_map.hpp"
 

@@ -1,5 +1,6 @@
 #include "base/memory_account.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
+#include "base/system/processors.hpp"
 #include "render/aovs/aov_painter.hpp"
 #include "render/clock.hpp"
 #include "render/prepared/content.hpp"
@@ -14,7 +15,6 @@
 #include <microtrace/error.hpp>
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -162,8 +162,7 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
           ImageSize size, const RenderOptions& options) {
   check(options);
   const PixelRect window = window_of(size, options.crop);
-  Threads threads{.wanted = options.threads != 0 ? options.threads : default_threads(),
-                  .run = options.run_threads};
+  Threads threads{.wanted = thread_count(options.threads), .run = options.run_threads};
   const auto start = Clock::now();
   const FlatIntegrator flat;
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
@@ -222,7 +221,7 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   MemoryAccount memory(options.memory);
   const MemoryScope scope(memory);
   check_indices(scene);
-  const BvhOptions build{.threads = options.threads != 0 ? options.threads : default_threads()};
+  const BvhOptions build{.threads = thread_count(options.threads)};
   const auto content = std::make_shared<const PreparedScene::Content>(
       borrowed(scene), build, std::make_shared<SharedTables>(), MemoryAccount(options.memory));
   return draw(content, camera, size, options);

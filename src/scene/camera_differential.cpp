@@ -1,4 +1,4 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "scene/kernels/dispatch.hpp"
 #include "scene/kernels/perspective.hpp"
 #include "scene/lens/lens.hpp"

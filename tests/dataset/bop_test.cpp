@@ -39,7 +39,8 @@ Scene two_rectangles() {
   return scene;
 }
 
-BopView bop_of(const RenderedView& view, const Scene& scene, const BopOptions& options = {}) {
+BopAnnotations bop_of(const RenderedView& view, const Scene& scene,
+                      const BopOptions& options = {}) {
   return bop_view(view.view(), BopFrames(scene), view.visible(), view.amodal(), options);
 }
 
@@ -51,8 +52,8 @@ Json joined(BopFile file, const std::vector<std::string>& parts) {
   return Json::parse(text);
 }
 
-const std::string& bytes_of(const BopView& view, std::string_view name) {
-  for (const NamedBytes& file : view.files) {
+const std::string& bytes_of(const BopAnnotations& view, std::string_view name) {
+  for (const NamedFile& file : view.files) {
     if (file.name == name) return file.bytes;
   }
   throw std::out_of_range(std::string(name));
@@ -67,7 +68,7 @@ std::vector<Sample> samples_of(const std::string& png) {
 TEST(Bop, CameraPosesAndCountsInClosedForm) {
   const Scene scene = two_rectangles();
   const RenderedView view(scene, pinhole(), kBopSize, 7);
-  const BopView bop = bop_of(view, scene, {.depth_scale = 0.25});
+  const BopAnnotations bop = bop_of(view, scene, {.depth_scale = 0.25});
   const Json camera = joined(BopFile::scene_camera, {bop.part})["7"];
   EXPECT_EQ(camera["cam_K"], Json({10, 0, 7.5, 0, 10, 4.5, 0, 0, 1}));
   EXPECT_EQ(camera["cam_R_w2c"], Json({1, 0, 0, 0, -1, 0, 0, 0, -1}));
@@ -106,7 +107,7 @@ TEST(Bop, CameraPosesAndCountsInClosedForm) {
 TEST(Bop, FarDepthsAreStoredAsZeroWithAWarning) {
   const Scene scene = two_rectangles();
   const RenderedView view(scene, pinhole(), kBopSize);
-  const BopView bop = bop_of(view, scene);  // 100000 steps
+  const BopAnnotations bop = bop_of(view, scene);  // 100000 steps
   ASSERT_EQ(bop.warnings.size(), 1U);
   EXPECT_THAT(bop.warnings[0].message, testing::HasSubstr("48 depths exceed"));
   EXPECT_EQ(std::ranges::count(samples_of<std::uint16_t>(bytes_of(bop, "depth/000000.png")), 0),
@@ -131,7 +132,7 @@ TEST(Bop, OtherCamerasAndScalesAreRefused) {
 
 TEST(Bop, EmptyViewsAndIncompleteParts) {
   const RenderedView view(Scene{}, PerspectiveCamera{}, {.width = 1, .height = 1}, 1234567);
-  const BopView bop = bop_of(view, Scene{});
+  const BopAnnotations bop = bop_of(view, Scene{});
   EXPECT_EQ(joined(BopFile::scene_gt, {bop.part}), (Json{{"1234567", Json::array()}}));
   EXPECT_EQ(bop.files.size(), 1U);
   EXPECT_EQ(joined(BopFile::scene_gt, {}), Json::object());

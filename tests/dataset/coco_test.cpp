@@ -102,7 +102,7 @@ Json joined(const Categories& categories, const std::vector<std::string>& parts)
 
 TEST(Coco, PartsAreJoinedWithRunningIds) {
   const Scene scene = overlapping_scene();
-  Categories categories(CategoryBy::object_name);
+  Categories categories(CocoCategories::objects);
   categories.add(scene);
   const RenderedView first(scene, unit_camera(kCocoSize), kCocoSize, 3);
   const RenderedView empty(
@@ -112,7 +112,7 @@ TEST(Coco, PartsAreJoinedWithRunningIds) {
   std::vector<std::string> parts;
   for (const RenderedView* view : {&first, &empty, &second}) {
     const Masks amodal = view->amodal();
-    parts.push_back(coco_part(view->view(), CategoryBy::object_name, view->visible(), &amodal));
+    parts.push_back(coco_part(view->view(), CocoCategories::objects, view->visible(), &amodal));
   }
   const Json json = joined(categories, parts);
   EXPECT_EQ(json["images"].size(), 3U);
@@ -139,15 +139,15 @@ TEST(Coco, PartsAreJoinedWithRunningIds) {
 
 TEST(Coco, CategoriesByMaterial) {
   const Scene scene = overlapping_scene();
-  Categories categories(CategoryBy::material_name);
+  Categories categories(CocoCategories::materials);
   categories.add(scene);
   categories.add(scene);
   EXPECT_THAT(categories.names(), ElementsAre("steel", "unnamed"));
-  EXPECT_EQ(categories.number_of(category_name(CategoryBy::material_name, scene, scene.objects[0])),
+  EXPECT_EQ(categories.number_of(category_name(CocoCategories::materials, scene, scene.objects[0])),
             1U);
-  EXPECT_EQ(categories.number_of(category_name(CategoryBy::material_name, scene, scene.objects[1])),
+  EXPECT_EQ(categories.number_of(category_name(CocoCategories::materials, scene, scene.objects[1])),
             2U);
-  EXPECT_EQ(categories.number_of(category_name(CategoryBy::material_name, scene, scene.objects[2])),
+  EXPECT_EQ(categories.number_of(category_name(CocoCategories::materials, scene, scene.objects[2])),
             2U);
 }
 
@@ -157,12 +157,12 @@ TEST(Coco, ViewsMayShowDifferentScenes) {
   Scene other = scene;
   std::swap(other.objects[0].name, other.objects[1].name);
   other.objects[2].name = "new";
-  Categories categories(CategoryBy::object_name);
+  Categories categories(CocoCategories::objects);
   categories.add(scene);
   const RenderedView a(scene, unit_camera(kCocoSize), kCocoSize, 0);
   const RenderedView b(other, unit_camera(kCocoSize), kCocoSize, 1);
-  const Json json = joined(categories, {coco_part(a.view(), CategoryBy::object_name, a.visible()),
-                                        coco_part(b.view(), CategoryBy::object_name, b.visible())});
+  const Json json = joined(categories, {coco_part(a.view(), CocoCategories::objects, a.visible()),
+                                        coco_part(b.view(), CocoCategories::objects, b.visible())});
   ASSERT_EQ(json["annotations"].size(), 6U);
   for (const Json& annotation : json["annotations"]) {
     const std::size_t category = annotation["category_id"].get<std::size_t>();
@@ -173,16 +173,16 @@ TEST(Coco, ViewsMayShowDifferentScenes) {
 }
 
 TEST(Coco, EmptyDataSetsAndIncompleteParts) {
-  const Categories categories(CategoryBy::object_name);
+  const Categories categories(CocoCategories::objects);
   const Json json = joined(categories, {});
   EXPECT_EQ(json["images"], Json::array());
   EXPECT_EQ(json["annotations"], Json::array());
   EXPECT_EQ(json["categories"], Json::array());
   const Scene scene = overlapping_scene();
-  Categories known(CategoryBy::object_name);
+  Categories known(CocoCategories::objects);
   known.add(scene);
   const RenderedView view(scene, unit_camera(kCocoSize), kCocoSize);
-  const std::string part = coco_part(view.view(), CategoryBy::object_name, view.visible());
+  const std::string part = coco_part(view.view(), CocoCategories::objects, view.visible());
   EXPECT_EQ(joined(known, {part})["annotations"].size(), 3U);
   for (std::size_t size = 0; size < part.size(); ++size)
     EXPECT_THROW(static_cast<void>(joined(known, {part.substr(0, size)})), Error) << size;

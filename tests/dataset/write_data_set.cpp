@@ -12,7 +12,7 @@
 namespace microtrace::dataset::tests {
 namespace {
 
-void write(const std::filesystem::path& folder, const NamedBytes& file) {
+void write(const std::filesystem::path& folder, const NamedFile& file) {
   const std::filesystem::path path = folder / file.name;
   std::filesystem::create_directories(path.parent_path());
   std::ofstream stream(path, std::ios::binary);
@@ -37,7 +37,7 @@ Scene tilted_scene() {
 
 void write_data_set(const std::filesystem::path& folder) {
   const Scene scene = tilted_scene();
-  Categories categories(CategoryBy::object_name);
+  Categories categories(CocoCategories::objects);
   categories.add(scene);
   const BopFrames frames(scene);
   const ImageSize size{.width = 97, .height = 65};
@@ -58,10 +58,10 @@ void write_data_set(const std::filesystem::path& folder) {
     const RenderedView rendered(scene, camera, size, i);
     const DrawnView view = rendered.view();
     const Masks visible = rendered.visible(), amodal = rendered.amodal();
-    coco_parts.push_back(coco_part(view, CategoryBy::object_name, visible, &amodal));
-    const BopView bop = bop_view(view, frames, visible, amodal, {.depth_scale = 0.25});
+    coco_parts.push_back(coco_part(view, CocoCategories::objects, visible, &amodal));
+    const BopAnnotations bop = bop_view(view, frames, visible, amodal, {.depth_scale = 0.25});
     bop_parts.push_back(bop.part);
-    for (const NamedBytes& file : bop.files) write(folder / "bop/train/000000", file);
+    for (const NamedFile& file : bop.files) write(folder / "bop/train/000000", file);
     std::vector<std::uint8_t> whole(scene.objects.size() * view.objects.size());
     for (const ObjectMask& mask : amodal) {
       for (const auto& [y, x] : pixels_of(mask.mask))

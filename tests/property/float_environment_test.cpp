@@ -1,7 +1,7 @@
 // Checks that a host program's rounding mode, precision, traps and flushing of subnormals change no
 // result, and that they are restored afterwards.
 
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 
 #include "support/host_rules.hpp"
 #include "support/source_folder.hpp"

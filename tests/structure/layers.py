@@ -95,6 +95,8 @@ def complaints():
             first = name.split("/")[0]
             if part and first in MAY_INCLUDE and first != part and first not in MAY_INCLUDE[part]:
                 yield f"{place}:{number}: {part} may not include {name}"
+            if part == "modules" and first == "io" and not name.endswith("_abi.hpp"):
+                yield f"{place}:{number}: modules may include only the C interfaces of io, not {name}"
             if part and first == "microtrace" and name[11:-4] in HIDDEN.get(part, ()):
                 yield f"{place}:{number}: {part} may not include <{name}>"
             if place.parts[0] == "include" and first not in ("microtrace", "glm") and "/" in name:

@@ -36,7 +36,7 @@ def recipe_of(header: Path) -> str:
 
 
 def places_of(recipe: str) -> list[str]:
-    return re.findall(r"\b(?:src|docs|tests|scenes)(?:/[\w./-]*\w)?\b", recipe)
+    return re.findall(r"\b(?:src|docs|tests|scenes|python)(?:/[\w./-]*\w)?\b", recipe)
 
 
 def handles(text: str, names: list[str]) -> bool:
@@ -47,7 +47,7 @@ def faults():
     recipes = {path.stem for path in (ROOT / HEADERS).glob("*.hpp") if recipe_of(path)}
     for stem in sorted(recipes ^ SETS.keys()):
         yield f"{HEADERS}/{stem}.hpp: has a recipe that is not in SETS, or the reverse"
-    sources = [path for path in (ROOT / "src").rglob("*.?pp")]
+    sources = [*(ROOT / "src").rglob("*.?pp"), *(ROOT / "python/src").rglob("*.?pp"), *(ROOT / "python/microtrace").rglob("*.py*")]
     for stem in sorted(recipes & SETS.keys()):
         code, words = SETS[stem]
         recipe = recipe_of(ROOT / HEADERS / f"{stem}.hpp")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks that every source and every test is compiled or run: that a CMakeLists.txt in its folder or above names it, or
-another one by its path.
+another one by its path. Checks that every source that a CMakeLists.txt names exists.
 
 usage: sources.py SOURCE_FOLDER
 """
@@ -35,7 +35,17 @@ def is_named(path):
     return any(re.search(rf"(?<!\w){re.escape(path.stem)}(?!\w)", text) for text in lists_above(path.parent))
 
 
+def missing_sources():
+    for folder in ("src", "tests", "bench", "python"):
+        for path in sorted((ROOT / folder).rglob("CMakeLists.txt")):
+            for name in re.findall(r"^ +([\w./-]+\.cpp)\b", path.read_text(), re.MULTILINE):  # lines of lists
+                if not (path.parent / name).exists():
+                    yield f"{path.relative_to(ROOT)}: names {name}, which does not exist"
+
+
 places = [path.relative_to(ROOT).as_posix() for pattern in PATTERNS for path in sorted(ROOT.glob(pattern))]
-found = [place for place in places if not NAMED_OTHERWISE.search(place) and not is_named(ROOT / place)]
-print("\n".join(f"{place}: no CMakeLists.txt names it" for place in found) or "every source is compiled")
+found = [f"{place}: no CMakeLists.txt names it" for place in places
+         if not NAMED_OTHERWISE.search(place) and not is_named(ROOT / place)]
+found += missing_sources()
+print("\n".join(found) or "every source is compiled")
 sys.exit(1 if found else 0)

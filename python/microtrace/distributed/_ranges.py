@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import concurrent.futures
+import contextlib
 import queue
 import time
 import uuid
@@ -113,8 +114,9 @@ class RangeRun:
         finally:
             self._fetchers.shutdown(wait=False, cancel_futures=True)
             futures = [flight.future for flight in self._flights.values()]
-            if futures:
-                self.client.cancel(futures)
+            with contextlib.suppress(Exception):  # a closed client has no tasks to cancel
+                if futures:
+                    self.client.cancel(futures)
             self._flights.clear()
 
     def _resume_delayed(self) -> None:

@@ -202,6 +202,7 @@ def dataset(
         TypeError: the client is asynchronous, or an argument has the wrong type.
         CanceledError: progress returned False. Finished views remain.
         distributed.KilledWorker: workers died repeatedly while they rendered the same views.
+        concurrent.futures.CancelledError: the cluster was restarted more often than `retries`.
         OSError, MemoryError: a file can't be read, or all retries failed.
     """
     require_synchronous(client)

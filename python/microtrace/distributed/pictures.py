@@ -14,13 +14,13 @@ from ..cameras import Camera, Vector
 from ..errors import warn_caller
 from ..lights import Environment
 from ..pictures import (
-    _QUANTITIES,
     Picture,
     Quantity,
     _checked,
     _denoise,
     _denoiser,
     _ground_arguments,
+    _layout,
     _shown,
     _with_features,
     is_ground_missing,
@@ -173,6 +173,7 @@ def render(
         TypeError: the client is asynchronous, or an argument has the wrong type.
         CanceledError: progress returned False.
         distributed.KilledWorker: workers died repeatedly while they rendered the same part.
+        concurrent.futures.CancelledError: the cluster was restarted more often than `retries`.
         OSError, MemoryError: all retries failed.
 
     Warns:
@@ -208,9 +209,7 @@ def render(
     }
     arrays: dict[str, Any] = {}
     for name in names:
-        channels, is_integer = (
-            (4 if transparent else 3, False) if name == "color" else _QUANTITIES[name]
-        )
+        channels, is_integer = _layout(name, transparent)
         shape = (len(cameras), height, width) + ((channels,) if channels > 1 else ())
         arrays[name] = np.zeros(shape, np.uint32 if is_integer else np.float32)
     display = (0.0, "none")

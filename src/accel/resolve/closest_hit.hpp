@@ -37,8 +37,8 @@ class ClosestHit {
   /// Returns the nearest hit, with t rounded to the nearest float32.
   [[nodiscard]] std::optional<Hit> rounded(const ExactHits& exactly) const {
     if (!found_) return std::nullopt;
-    const auto below = static_cast<float>(lo_), above = static_cast<float>(hi_);
-    return Hit{.id = id_, .t = below == above ? below + 0.0F : exactly.t(id_)};
+    const auto t = exact::rounded({.lo = lo_, .hi = hi_});
+    return Hit{.id = id_, .t = t ? *t : exactly.t(id_)};
   }
 
  private:

@@ -59,9 +59,8 @@ Hit HitResolver::hit(std::uint32_t id) const {
   return primitives_->visit(id, [&](const auto& shape) {
     if (filterable_ && is_filterable(shape)) {
       const FilterResult filtered = filtered_by(shape);
-      const auto below = static_cast<float>(filtered.lo), above = static_cast<float>(filtered.hi);
-      if (filtered.certainty == Certainty::hit && below == above)
-        return Hit{.id = id, .t = below + 0.0F};  // -0 becomes 0
+      const auto t = exact::rounded({.lo = filtered.lo, .hi = filtered.hi});
+      if (filtered.certainty == Certainty::hit && t) return Hit{.id = id, .t = *t};
     }
     return Hit{.id = id, .t = ExactHits(*primitives_, *ray_).t(id)};
   });

@@ -53,7 +53,7 @@ class HitResolver {
   /// Returns the hit with a primitive that the ray is known to hit, with t rounded once.
   [[nodiscard]] Hit hit(std::uint32_t id) const;
 
-  /// Returns callbacks for kernels. This object must outlive the result.
+  /// Returns a callback for kernels. This object must outlive the result.
   [[nodiscard]] Fallback fallback();
 
  private:

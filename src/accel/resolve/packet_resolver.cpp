@@ -85,8 +85,8 @@ PacketFallback PacketResolver::fallback() {
 }
 
 Hit PacketResolver::hit(std::size_t i, PrimitiveId id) const {
-  const auto below = static_cast<float>(bounds_.lo[i]), above = static_cast<float>(bounds_.hi[i]);
-  if (bounds_.id[i] == id && below == above) return {.id = id, .t = below + 0.0F};  // not -0
+  const auto t = exact::rounded({.lo = bounds_.lo[i], .hi = bounds_.hi[i]});
+  if (bounds_.id[i] == id && t) return {.id = id, .t = *t};
   return HitResolver(*primitives_, ray_at(i)).hit(id);
 }
 

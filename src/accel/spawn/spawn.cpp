@@ -1,6 +1,6 @@
 #include "accel/spawn/kernels/kernel.hpp"
 #include "accel/spawn/origin_search.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 
 #include <microtrace/spawn.hpp>
 

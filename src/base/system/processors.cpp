@@ -58,4 +58,8 @@ unsigned default_threads() {
   return quota ? std::min(*quota, allowed) : allowed;
 }
 
+unsigned thread_count(unsigned option) {
+  return option != 0 ? option : default_threads();
+}
+
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// How many processors the control groups (cgroups) of this process grant it.
+/// How many processors this process may use.
 
 #include <filesystem>
 #include <optional>
@@ -10,5 +10,8 @@ namespace microtrace {
 /// --cpus 1.5`. Returns nothing if no group has such a limit. `root` is the folder that contains
 /// proc and sys. More threads than this would be stopped for a part of each period.
 [[nodiscard]] std::optional<unsigned> processor_quota(const std::filesystem::path& root = "/");
+
+/// Returns the number of threads that an option states: default_threads() if it is 0.
+[[nodiscard]] unsigned thread_count(unsigned option);
 
 }  // namespace microtrace

@@ -1,6 +1,6 @@
 #include "base/system/start_threads.hpp"
 
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,6 @@
 #include "cli/dataset/view_renderer.hpp"
 
+#include "base/system/processors.hpp"
 #include "base/text/named_items.hpp"
 #include "base/text/printable.hpp"
 #include "cli/dataset/plan.hpp"
@@ -10,7 +11,6 @@
 
 #include <microtrace/digest.hpp>
 #include <microtrace/render.hpp>
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <fcntl.h>
@@ -226,7 +226,7 @@ void ViewRenderer::prepare(const DatasetView& view) {
 
 Film ViewRenderer::draw(const Camera& camera, ImageSize size, const std::vector<Aov>& aovs) {
   RenderCounts counts;
-  const unsigned threads = arguments_.threads != 0 ? arguments_.threads : default_threads();
+  const unsigned threads = thread_count(arguments_.threads);
   const RenderOptions options{.threads = threads,
                               .integrator = integrator_.get(),
                               .samples = arguments_.sampling.samples,

@@ -1,11 +1,11 @@
 #include "cli/pictures/exposure.hpp"
 
+#include "base/system/processors.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
 
 #include <microtrace/defaults.hpp>
 #include <microtrace/exposure.hpp>
-#include <microtrace/threads.hpp>
 
 #include <memory>
 #include <string>
@@ -36,7 +36,7 @@ DisplayOptions with_exposure(const Arguments& arguments, const PreparedScene& sc
                              const Camera& camera, ImageSize size) {
   const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
   return with_exposure(arguments.display, scene, camera, size,
-                       {.threads = arguments.threads != 0 ? arguments.threads : default_threads(),
+                       {.threads = thread_count(arguments.threads),
                         .integrator = integrator.get(),
                         .memory = arguments.load.memory});
 }
@@ -52,7 +52,7 @@ DisplayOptions with_exposure_of_frames(SceneFile& file, const Arguments& argumen
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = framing ? Camera(in_coordinates_of(scene, *framing))
                                 : choose_camera(scene, arguments.camera, size);
-  const unsigned threads = arguments.threads != 0 ? arguments.threads : default_threads();
+  const unsigned threads = thread_count(arguments.threads);
   const PreparedScene prepared(std::move(scene),
                                {.threads = threads, .memory = arguments.load.memory});
   return with_exposure(arguments, prepared, camera, size);

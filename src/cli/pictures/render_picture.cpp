@@ -1,6 +1,7 @@
 #include "cli/pictures/render_picture.hpp"
 
 #include "base/memory_account.hpp"
+#include "base/system/processors.hpp"
 #include "base/text/printable.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/exposure.hpp"
@@ -15,7 +16,6 @@
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/sidecar.hpp>
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -85,14 +85,14 @@ std::optional<Passes> passes_of(const SamplingOptions& sampling, const Integrato
 }
 
 /// Shows the picture after passes if it is rendered in passes.
-void show_passes(RenderOptions& options, DisplayServer& viewer, const std::string& name) {
+void show_passes(RenderOptions& options, DisplayServer& server, const std::string& name) {
   if (!options.passes && options.integrator->is_random()) options.passes.emplace();
   if (!options.passes) return;
-  options.passes->after_each = [&viewer, name, transparent = options.transparent,
+  options.passes->after_each = [&server, name, transparent = options.transparent,
                                 before = options.passes->after_each](const SampleSums& sums) {
     if (before) before(sums);
     const Film::Alpha alpha = transparent ? Film::Alpha::premultiplied : Film::Alpha::none;
-    if (viewer.is_due()) viewer.show(name, develop(sums, alpha));
+    if (server.is_due()) server.show(name, develop(sums, alpha));
   };
 }
 
@@ -165,7 +165,7 @@ FilmContents contents_of(const Arguments& arguments, std::optional<ImageSize> si
 RenderOptions options_of(const Arguments& arguments, const Integrator& integrator,
                          const PictureFiles& files) {
   RenderOptions options{
-      .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
+      .threads = thread_count(arguments.threads),
       .integrator = &integrator,
       .samples = arguments.sampling.samples,
       .filter = arguments.sampling.filter,
@@ -234,9 +234,9 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   options.passes = passes_of(arguments.sampling, *integrator, display, files);
   const std::string shown_name =
       (arguments.sampling.shard || files.picture == "-" ? arguments.scene : files.picture.string());
-  if (files.viewer != nullptr) show_passes(options, *files.viewer, shown_name);
+  if (files.display_server != nullptr) show_passes(options, *files.display_server, shown_name);
   auto [film, failure] = render_and_save(prepared, camera, size, options, arguments, files);
-  if (files.viewer != nullptr) files.viewer->show(shown_name, film);
+  if (files.display_server != nullptr) files.display_server->show(shown_name, film);
   times.build += build.count();
   apply_display(film, display);
   if (!arguments.quiet) warn_about(counts, options.threads);

@@ -20,13 +20,13 @@
 
 namespace microtrace::cli {
 
-/// The files of a picture, the viewer that shows it, and its denoiser.
+/// The files of a picture, the server that shows it, and its denoiser.
 struct PictureFiles {
   std::filesystem::path picture;
-  std::filesystem::path sidecar;    ///< empty if no sidecar is written
-  SampleFiles* samples = nullptr;   ///< the checkpoints to read and write; null if there are none
-  DisplayServer* viewer = nullptr;  ///< null if there is none
-  const Denoiser* denoiser = nullptr;  ///< null if the picture is not denoised
+  std::filesystem::path sidecar;   ///< empty if no sidecar is written
+  SampleFiles* samples = nullptr;  ///< the checkpoints to read and write; null if there are none
+  DisplayServer* display_server = nullptr;  ///< null if there is none
+  const Denoiser* denoiser = nullptr;       ///< null if the picture is not denoised
 };
 
 /// Throws the errors that writing a sequence's pictures to their paths would throw. Called before

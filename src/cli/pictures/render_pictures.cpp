@@ -60,7 +60,8 @@ class PictureRun {
     check_outputs(arguments_, sequence_);
     framing_ = frame_all(*file_, sequence_, arguments_);
     if (arguments_.denoises && !arguments_.sampling.shard) denoiser_.emplace();
-    if (arguments_.display_server) viewer_.emplace(*arguments_.display_server, arguments_.quiet);
+    if (arguments_.display_server)
+      display_server_.emplace(*arguments_.display_server, arguments_.quiet);
   }
 
   /// Returns the scene of a picture in its environment, and reports the warnings about it.
@@ -89,7 +90,7 @@ class PictureRun {
     const PictureFiles files{.picture = sequence_.picture(index),
                              .sidecar = sequence_.sidecar(index),
                              .samples = samples_ ? &*samples_ : nullptr,
-                             .viewer = viewer_ ? &*viewer_ : nullptr,
+                             .display_server = display_server_ ? &*display_server_ : nullptr,
                              .denoiser = denoiser_ ? &*denoiser_ : nullptr};
     check_no_input_is_overwritten(inputs_,
                                   {{"--output", files.picture}, {"--sidecar", files.sidecar}});
@@ -123,7 +124,7 @@ class PictureRun {
   std::optional<Environment> environment_;  ///< of --env
   std::optional<SampleFiles> samples_;
   std::optional<Denoiser> denoiser_;
-  std::optional<DisplayServer> viewer_;
+  std::optional<DisplayServer> display_server_;
   Tables tables_;
 };
 

@@ -1,7 +1,7 @@
 #include "cli/view/errands.hpp"
 
+#include "base/system/float_environment.hpp"
 #include "base/system/start_threads.hpp"
-#include "float_environment.hpp"
 
 #include <utility>
 

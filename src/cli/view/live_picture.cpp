@@ -1,9 +1,9 @@
 #include "cli/view/live_picture.hpp"
 
+#include "base/system/float_environment.hpp"
 #include "base/system/start_threads.hpp"
 #include "base/text/printable.hpp"
 #include "cli/view/picture_json.hpp"
-#include "float_environment.hpp"
 #include "io/image/encode/png.hpp"
 
 #include <microtrace/error.hpp>

@@ -40,8 +40,8 @@ class LivePicture {
   /// there is one. A later call replaces one that is still waiting, which gets the status 204.
   void poll(std::uint64_t after, const io::HttpReply& reply);
 
-  /// Must be called some times per second: gives waiting calls of poll() the status 204 after 10 s,
-  /// and draws the picture again if the scene file has changed.
+  /// Must be called several times per second: gives waiting calls of poll() the status 204 after 10
+  /// s, and draws the picture again if the scene file has changed.
   void tick();
 
   /// Replies to a call of poll() that is waiting, if there is one.

@@ -1,5 +1,6 @@
 #include "cli/view/picture_job.hpp"
 
+#include "base/system/processors.hpp"
 #include "cli/options/applicable.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/pictures/camera.hpp"
@@ -8,7 +9,6 @@
 #include "cli/report/warnings.hpp"
 
 #include <microtrace/defaults.hpp>
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ PictureJob make_job(SceneSource& source, Arguments arguments) {
   light.environment = scene.environment;
   light.background = scene.background;
   apply_environment(light, source.environment(a.environment), a.environment);
-  job.options = {.threads = a.threads != 0 ? a.threads : default_threads(),
+  job.options = {.threads = thread_count(a.threads),
                  .integrator = job.integrator.get(),
                  .samples = a.sampling.samples,
                  .filter = a.sampling.filter,

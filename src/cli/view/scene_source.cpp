@@ -1,10 +1,10 @@
 #include "cli/view/scene_source.hpp"
 
+#include "base/system/processors.hpp"
 #include "cli/options/option_value.hpp"
 #include "cli/pictures/environment.hpp"
 
 #include <microtrace/framing.hpp>
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -24,7 +24,7 @@ SceneSource::SceneSource(const Arguments& arguments, MemoryBudget& memory)
     : memory_(memory),
       options_(arguments.load),
       path_(arguments.scene),
-      threads_(arguments.threads != 0 ? arguments.threads : default_threads()),
+      threads_(thread_count(arguments.threads)),
       files_{{arguments.scene, state_of(arguments.scene)}} {
   options_.detail = SurfaceDetail::all;  // the page selects the integrator
   options_.memory = &memory_;

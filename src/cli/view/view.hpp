@@ -3,7 +3,7 @@
 
 namespace microtrace::cli {
 
-/// Serves a page that shows the scene until the user ends it. Throws Error and Interruption.
+/// Serves a page that shows the scene until the user ends it. Throws Error.
 void view_scene(const Arguments& arguments);
 
 }  // namespace microtrace::cli

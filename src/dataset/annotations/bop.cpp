@@ -146,13 +146,13 @@ BopFrames::BopFrames(const Scene& scene) {
   }
 }
 
-BopView bop_view(const DrawnView& view, const BopFrames& frames, const Masks& visible,
-                 const Masks& amodal, const BopOptions& options) {
+BopAnnotations bop_view(const DrawnView& view, const BopFrames& frames, const Masks& visible,
+                        const Masks& amodal, const BopOptions& options) {
   check(view, options);
   const Scene& scene = view.scene->scene();
   const CameraModel model = RayGenerator(*view.camera, view.size).model();
   const CameraFrame frame(model);
-  BopView result;
+  BopAnnotations result;
   const DepthSteps depth = depth_steps(view.depth, options);
   if (depth.too_far != 0) {
     Diagnostic warning;

@@ -5,7 +5,7 @@
 #include "dataset/annotations/drawn_view.hpp"
 #include "dataset/annotations/masks.hpp"
 
-#include <microtrace/error.hpp>
+#include <microtrace/annotations.hpp>
 #include <microtrace/math.hpp>
 
 #include <cstddef>
@@ -36,20 +36,13 @@ class BopFrames {
   std::vector<DVec3> origins_;
 };
 
-struct BopView {
-  /// The view's part of the JSON files, for join_bop().
-  std::string part;
-  /// depth/, mask/ and mask_visib/; names are relative to the folder of the BOP scene.
-  std::vector<NamedBytes> files;
-  std::vector<Diagnostic> warnings;
-};
-
 /// Returns a view's annotations. The view's index is the im_id. All objects with an amodal mask are
 /// annotated, in their order. Throws Error: usage if the camera is neither a perspective camera nor
 /// a calibrated camera without distortion, for scales that are not positive, or if view.depth
 /// doesn't have one value per pixel; unsupported if there is no codec module.
-[[nodiscard]] BopView bop_view(const DrawnView& view, const BopFrames& frames, const Masks& visible,
-                               const Masks& amodal, const BopOptions& options = {});
+[[nodiscard]] BopAnnotations bop_view(const DrawnView& view, const BopFrames& frames,
+                                      const Masks& visible, const Masks& amodal,
+                                      const BopOptions& options = {});
 
 /// The JSON files of a BOP scene.
 enum class BopFile { scene_camera, scene_gt, scene_gt_info };

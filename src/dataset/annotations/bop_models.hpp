@@ -15,7 +15,7 @@ namespace microtrace::dataset {
 
 struct BopModel {
   std::uint32_t id = 0;  ///< obj_id
-  NamedBytes file;       ///< models/obj_NNNNNN.ply, relative to the data set's folder
+  NamedFile file;        ///< models/obj_NNNNNN.ply, relative to the data set's folder
   std::string info;      ///< the model's member of models_info.json
 };
 

@@ -87,8 +87,8 @@ std::vector<std::string_view> lines_of(std::string_view part, std::size_t index)
 
 }  // namespace
 
-std::string category_name(CategoryBy by, const Scene& scene, const Object& object) {
-  std::string name = by == CategoryBy::object_name ? object.name.str()
+std::string category_name(CocoCategories by, const Scene& scene, const Object& object) {
+  std::string name = by == CocoCategories::objects ? object.name.str()
                      : object.material             ? scene.materials[*object.material].name
                                                    : std::string();
   return name.empty() ? "unnamed" : name;
@@ -105,7 +105,7 @@ void Categories::add(const Scene& scene) {
   for (const Object& object : scene.objects) number_of(category_name(by_, scene, object));
 }
 
-std::string coco_part(const DrawnView& view, CategoryBy by, const Masks& visible,
+std::string coco_part(const DrawnView& view, CocoCategories by, const Masks& visible,
                       const Masks* amodal) {
   JsonText image('{');
   image.member("id", view.index)

@@ -5,6 +5,8 @@
 #include "dataset/annotations/drawn_view.hpp"
 #include "dataset/annotations/masks.hpp"
 
+#include <microtrace/annotations.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,16 +17,14 @@
 
 namespace microtrace::dataset {
 
-/// The property of objects that determines their category.
-enum class CategoryBy { object_name, material_name };
-
 /// Returns the name of an object's category.
-[[nodiscard]] std::string category_name(CategoryBy by, const Scene& scene, const Object& object);
+[[nodiscard]] std::string category_name(CocoCategories by, const Scene& scene,
+                                        const Object& object);
 
 /// The categories of a data set, numbered from 1 in the order in which they were added.
 class Categories {
  public:
-  explicit Categories(CategoryBy by) : by_(by) {}
+  explicit Categories(CocoCategories by) : by_(by) {}
 
   /// Adds the categories of all objects of a scene, in their order.
   void add(const Scene& scene);
@@ -35,7 +35,7 @@ class Categories {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:
-  CategoryBy by_;
+  CocoCategories by_;
   std::vector<std::string> names_;
   std::map<std::string, std::uint32_t, std::less<>> numbers_;
 };
@@ -45,7 +45,7 @@ class Categories {
 /// number of annotations: views may show different scenes, whose objects and materials differ. If
 /// `amodal` is not null, annotations also have the members amodal_segmentation, amodal_area,
 /// amodal_bbox and occlude_rate, the hidden fraction of the amodal area (as in COCO Amodal).
-[[nodiscard]] std::string coco_part(const DrawnView& view, CategoryBy by, const Masks& visible,
+[[nodiscard]] std::string coco_part(const DrawnView& view, CocoCategories by, const Masks& visible,
                                     const Masks* amodal = nullptr);
 
 /// Passes the JSON file for the parts of `count` views to `out`. Image ids are the views' indices.

@@ -1,6 +1,5 @@
 #pragma once
-/// The input and output of annotation formats: a view whose ids and depths are rendered, and files
-/// in memory, which the caller stores wherever it likes.
+/// The input of annotation formats: a view whose ids and depths are rendered.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/prepared_scene.hpp>
@@ -10,12 +9,6 @@
 #include <string>
 
 namespace microtrace::dataset {
-
-/// A file of a data set.
-struct NamedBytes {
-  std::string name;  ///< path relative to the data set's folder, with '/' between folders
-  std::string bytes;
-};
 
 /// The value of DrawnView::objects where nothing is visible.
 inline constexpr std::uint32_t kNoObject = 0xFFFFFFFF;

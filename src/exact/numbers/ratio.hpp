@@ -9,6 +9,7 @@
 #include <compare>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 
 namespace microtrace::exact {
 
@@ -35,6 +36,13 @@ template <class Number>
 struct Enclosure {
   double lo, hi;
 };
+
+/// Returns x rounded to the nearest float32, or nothing if the bounds are rounded differently. The
+/// result is never -0.
+[[nodiscard]] inline std::optional<float> rounded(const Enclosure& x) {
+  const auto below = static_cast<float>(x.lo), above = static_cast<float>(x.hi);
+  return below == above ? std::optional(below + 0.0F) : std::nullopt;
+}
 
 /// A positive number mantissa 2^exponent. The function that returns it documents the relative
 /// error.

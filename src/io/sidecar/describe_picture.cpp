@@ -1,4 +1,4 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/sidecar/seen_pixels.hpp"
 #include "scene/shape_name.hpp"
 #include "scene/support.hpp"

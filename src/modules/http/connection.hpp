@@ -36,8 +36,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// current request waits for its response.
   [[nodiscard]] bool is_open_at_client();
 
-  [[nodiscard]] Server& server() { return server_; }
-
  private:
   /// The file system's and the program's limits are far higher; requests of the page are short.
   static constexpr std::uint32_t kMostHeader = 16 << 10;

@@ -40,7 +40,7 @@ Vec3 shading_normal(const ShadingPoint& point, const Vec3& d) {
   return usable_normal<1>(side * n, side * point.at.n, -d);
 }
 
-/// The ways on which light comes to a smooth surface, and the shares of light on them.
+/// The paths by which light reaches a smooth surface, and the fraction of light on each.
 struct Ways {
   float reflected = 0, transmitted = 0;
   float rest = 1;   ///< scattered by the surface
@@ -52,8 +52,8 @@ struct Ways {
     transmitted *= 1 - share;
     rest *= 1 - share;
   }
-  /// Moves the share of a faint reflection to the other ways. Strong reflections keep their shares,
-  /// without a step in between.
+  /// Moves the share of a faint reflection to the other ways. Strong reflections keep their shares;
+  /// the transition is continuous.
   void drop_faint_reflection() {
     const float others = transmitted + rest;
     if (others <= 0) return;

@@ -1,5 +1,6 @@
 #include "base/memory_account.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
+#include "base/system/processors.hpp"
 #include "render/aovs/aov_painter.hpp"
 #include "render/clock.hpp"
 #include "render/tiles.hpp"
@@ -7,7 +8,6 @@
 
 #include <microtrace/error.hpp>
 #include <microtrace/render_aovs.hpp>
-#include <microtrace/threads.hpp>
 
 #include <string>
 #include <variant>
@@ -39,8 +39,7 @@ void render_aovs(const PreparedScene& scene, const Camera& camera, ImageSize siz
   const MemoryScope scope(memory);
   for (const AovBuffer& buffer : buffers) check(buffer);
   const PixelRect window = window_of(size, options.crop);
-  Threads threads{.wanted = options.threads != 0 ? options.threads : default_threads(),
-                  .run = options.run_threads};
+  Threads threads{.wanted = thread_count(options.threads), .run = options.run_threads};
   const auto start = Clock::now();
   const std::shared_ptr<const PreparedScene::Content> content(std::shared_ptr<void>(),
                                                               &scene.content());

@@ -17,7 +17,7 @@
 namespace microtrace {
 namespace {
 
-/// The number of samples per pixel for which features are computed, also if colors have fewer
+/// The number of samples per pixel for which features are computed, even if colors have fewer
 /// samples. It suffices to antialias edges.
 constexpr std::uint32_t kFeatureSamples = 32;
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The parameters of a BSDF at one point, as collected by shading code. surface.hpp stores them in
-/// lanes.
+/// The parameters of a BSDF at one point, as collected by shading code. put_surface.hpp stores them
+/// in lanes, and surface.hpp reads them there.
 
 #include "render/bsdf/features.hpp"
 #include "render/bsdf/schlick.hpp"

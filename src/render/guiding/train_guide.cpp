@@ -1,7 +1,7 @@
 #include "render/guiding/train_guide.hpp"
 
 #include "base/memory_account.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "render/camera_rays.hpp"
 #include "render/guiding/robust_mean.hpp"
 #include "render/integrators/wave.hpp"

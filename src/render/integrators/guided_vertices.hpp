@@ -17,7 +17,7 @@ class GuidedVertices {
                const Points& points, ScatterLanes& lanes);
 
  private:
-  /// Sets the tables and what else the lanes need of the guide. Returns false if no lane is guided.
+  /// Sets the guide's tables and other inputs of the lanes. Returns false if no lane is guided.
   bool find_tables(const PathGuide& guide, bool refract, const Points& points, ScatterLanes& lanes);
 
   GuideLanes<kShadingLanes> directions_{};

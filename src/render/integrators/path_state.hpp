@@ -17,8 +17,8 @@
 
 namespace microtrace {
 
-/// One element for each path of a wavefront. The arrays of a path lie side by side; the last
-/// elements, which are unused, keep their addresses from mapping to the same lines of a cache.
+/// One element for each path of a wavefront. The arrays of a path lie side by side; unused elements
+/// at their ends keep equal indices from mapping to the same cache sets.
 inline constexpr std::size_t kPathColumn = kRandomBatch + 16;
 using PathFloats = float[kPathColumn];
 using PathNumbers = std::uint32_t[kPathColumn];

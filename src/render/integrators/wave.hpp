@@ -151,7 +151,8 @@ class Wave {
   [[nodiscard]] int channel_of(const Material& material, std::size_t i) const;
   /// True if find_blocked() can be used.
   [[nodiscard]] bool knows_blocked() const {
-    return looks_behind() && shading_->open_fronts() != nullptr && tracer_.knows_sides();
+    return looks_behind() && shading_->triangles_with_open_backs() != nullptr &&
+           tracer_.knows_sides();
   }
   /// True if path i, whose first hit is the front of a surface with an open back, may get light
   /// from behind it.

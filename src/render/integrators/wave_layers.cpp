@@ -1,4 +1,4 @@
-/// What the paths of a wavefront meet behind surfaces that let them or light through.
+/// What the paths of a wavefront meet behind surfaces that let paths or light through.
 
 #include "render/integrators/ray_timer.hpp"
 #include "render/integrators/wave.hpp"
@@ -64,7 +64,7 @@ void Wave::find_blocked() {
   const PathColumns& paths = *paths_;
   std::size_t count = 0;
   for (std::size_t i = 0; i < count_; ++i) {
-    if (hits_[i] == kNoPrimitive || !shading_->is_open_front(hits_[i])) continue;
+    if (hits_[i] == kNoPrimitive || !shading_->has_open_back(hits_[i])) continue;
     put_vector(open_rays_.o, count, vector_of(paths.o, i));
     put_vector(open_rays_.d, count, vector_of(paths.d, i));
     open_rays_.t_max[count] = paths.t_max[i];
@@ -73,7 +73,8 @@ void Wave::find_blocked() {
   }
   const RayColumns rays = columns_of(open_rays_, count);
   const auto blockers = std::span(open_blockers_).first(count);
-  const HitFilter filter{.open = {.triangles = shading_->open_fronts()}, .masked = masked()};
+  const HitFilter filter{.open = {.triangles = shading_->triangles_with_open_backs()},
+                         .masked = masked()};
   if (lighting_->has_surfaces())
     tracer_.closest(rays, filter, blockers);
   else

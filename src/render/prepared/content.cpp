@@ -1,6 +1,6 @@
 #include "render/prepared/content.hpp"
 
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "scene/mesh/mesh_memory.hpp"
 
 #include <utility>

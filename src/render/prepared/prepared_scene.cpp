@@ -1,10 +1,10 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
+#include "base/system/processors.hpp"
 #include "render/prepared/content.hpp"
 #include "scene/mesh/missing_tangents.hpp"
 #include "scene/validate/check_indices.hpp"
 
 #include <microtrace/prepared_scene.hpp>
-#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, PrepareOptions 
   }
   auto tables = tables_for(*scene, options.tables.get());
   BvhOptions tree{.fast_build = options.fast_build,
-                  .threads = options.threads != 0 ? options.threads : default_threads(),
+                  .threads = thread_count(options.threads),
                   .previous = options.tables ? options.tables->tree() : nullptr,
                   .max_cost_growth = options.max_cost_growth};
   options.tables.reset();

@@ -1,6 +1,6 @@
 #include "render/samples/pixel_adder.hpp"
 
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "render/samples/add_sample.hpp"
 
 #include <algorithm>

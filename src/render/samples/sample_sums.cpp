@@ -1,4 +1,4 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "render/film_pixel.hpp"
 #include "render/kernels/sum_samples.hpp"
 #include "render/luminance.hpp"

@@ -88,7 +88,7 @@ void TexturedMaterial::fetch(const TexelAddress<1>& address) const {
 Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables)
     : primitives_(primitives),
       maps_(std::make_unique<TextureMaps>(scene, tables)),
-      open_fronts_(primitives.count(), "the one-sided surfaces of the scene"),
+      with_open_backs_(primitives.count(), "the one-sided surfaces of the scene"),
       masked_(primitives.count(), "the transparent surfaces of the scene") {
   const auto add = [&](const Material& material) {
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
@@ -149,19 +149,19 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
       const std::uint32_t look = entries_[run].look;
       flat_triangles_.add_mesh(mesh, first_id, look, looks_[look]);
     });
-  if (has_open_backs_) find_open_fronts();
+  if (has_open_backs_) find_open_backs();
   find_masked();
 }
 
-void Shading::find_open_fronts() {
+void Shading::find_open_backs() {
   for (std::size_t run = 0; run < entries_.size(); ++run) {
     const Entry& entry = entries_[run];
     if (!looks_[entry.look].has_open_back) continue;
     if (entry.mesh == nullptr) {
-      open_fronts_.clear();
+      with_open_backs_.clear();
       return;
     }
-    open_fronts_.insert(entry.first_id, primitives_.first_id_of_run(run + 1));
+    with_open_backs_.insert(entry.first_id, primitives_.first_id_of_run(run + 1));
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Material evaluation at the vertices of paths.
+/// Material evaluation at hits: BSDFs, emission and coverage.
 
 #include "accel/kernels/kernel.hpp"
 #include "base/bit_set.hpp"
@@ -35,7 +35,8 @@ struct MeshTriangle {
 class SharedTables;
 class TextureMaps;
 
-/// Evaluates materials. Created once per picture. Any number of threads may use it.
+/// Evaluates materials. Created once per prepared scene, when it is first needed. Any number of
+/// threads may use it.
 class Shading {
  public:
   /// All arguments must outlive this object.
@@ -93,7 +94,7 @@ class Shading {
   [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
   /// The triangles with open backs, or none if other primitives have open backs.
-  [[nodiscard]] BitPages open_fronts() const { return open_fronts_.pages(); }
+  [[nodiscard]] BitPages triangles_with_open_backs() const { return with_open_backs_.pages(); }
   /// True if the primitive blocks all light that doesn't arrive through an open back.
   [[nodiscard]] bool is_opaque(PrimitiveId id) const { return all_cover_ || look_of(id).is_opaque; }
   /// True if the primitive may be emissive.
@@ -102,7 +103,9 @@ class Shading {
   [[nodiscard]] bool is_same_emitter(PrimitiveId a, PrimitiveId b) const {
     return primitives_.object_index(a) == primitives_.object_index(b) && is_emissive(a);
   }
-  [[nodiscard]] bool is_open_front(PrimitiveId id) const { return is_in(open_fronts(), id); }
+  [[nodiscard]] bool has_open_back(PrimitiveId id) const {
+    return is_in(triangles_with_open_backs(), id);
+  }
 
   /// The triangles on which is_transparent() may be true, and all for which is_blended() is.
   [[nodiscard]] BitPages masked() const { return masked_.pages(); }
@@ -206,7 +209,7 @@ class Shading {
   [[nodiscard]] const TexturedMaterial& look_of(PrimitiveId id) const {
     return looks_[entry_of(id).look];
   }
-  void find_open_fronts();
+  void find_open_backs();
   void find_masked();
   [[nodiscard]] static float alpha_coverage(const ShadingPoint& point);
   [[nodiscard]] static bool blends(const TexturedMaterial& look) {
@@ -227,7 +230,7 @@ class Shading {
   std::vector<TexturedMaterial> looks_;
   std::vector<Entry> entries_;  // by run of objects
   FlatTriangles flat_triangles_;
-  PrimitiveSet open_fronts_, masked_;
+  PrimitiveSet with_open_backs_, masked_;
   OpacityMaps opacity_;
   bool all_cover_ = true, has_open_backs_ = false, has_textures_ = false, has_blended_ = false;
 };

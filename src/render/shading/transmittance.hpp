@@ -64,7 +64,7 @@ class LightBlockers {
   /// If `passes_backs`, light passes through the backs of one-sided surfaces.
   LightBlockers(const RayTracer& tracer, const Shading& shading, bool passes_backs)
       : shading_(shading),
-        open_(passes_backs && tracer.knows_sides() ? shading.open_fronts() : nullptr),
+        open_(passes_backs && tracer.knows_sides() ? shading.triangles_with_open_backs() : nullptr),
         may_pass_opaque_(passes_backs && shading.has_open_backs() && open_ == nullptr) {}
 
   /// The hits that the queries of a RayTracer must find. Unless `targets` is null, ray i must find

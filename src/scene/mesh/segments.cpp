@@ -1,4 +1,4 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "scene/mesh/segment_widener.hpp"
 
 #include <microtrace/segments.hpp>

@@ -1,4 +1,4 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "scene/material_textures.hpp"
 #include "scene/mesh/shared_meshes.hpp"
 #include "scene/validate/check_indices.hpp"

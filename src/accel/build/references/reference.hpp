@@ -7,7 +7,7 @@
 
 namespace microtrace::build {
 
-/// The weight of a primitive is its cost in sixteenths of a block test. Other primitives than
+/// The weight of a primitive is its cost in sixteenths of a block test. Primitives other than
 /// triangles are tested one at a time. All triangles of a tree have the same weight: either eight
 /// fill a block, or five, if most of them share no vertices.
 inline constexpr std::uint32_t kTriangleWeight = 2;
@@ -36,7 +36,7 @@ struct Reference {
 static_assert(sizeof(Reference) == 32);
 
 /// Prefetches a reference that a loop over references will reach soon. The processor's own
-/// prefetchers don't help at the begin of each of the many small sets.
+/// prefetchers don't help at the start of each of the many small sets.
 inline void prefetch_after(const Reference& r) {
   __builtin_prefetch(&r + 32);
 }

@@ -45,12 +45,12 @@ class CodedItem {
 inline constexpr std::size_t kCellSize = 32;
 
 /// References to the bounded primitives of a scene. Most are computed when they are needed, which
-/// is faster than to read them from memory, because neighbors share vertices.
+/// is faster than reading them from memory, because neighbors share vertices.
 struct References {
   const Primitives* primitives = nullptr;
   PageVector<CodedItem> items{};
   PageVector<Reference> stored{};  ///< pieces of triangles, and instances
-  /// The begin of each cell of sorted items, and the end of the last. Empty if the items are not
+  /// The start of each cell of sorted items, and the end of the last. Empty if the items are not
   /// sorted.
   PageVector<std::uint32_t> cells{};
   std::vector<PrimitiveId> unbounded{};

@@ -1,4 +1,4 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/image/encode/eight_bits.hpp"
 
 #include <microtrace/compare.hpp>

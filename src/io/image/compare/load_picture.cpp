@@ -1,5 +1,5 @@
 #include "base/memory_account.hpp"
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/file.hpp"
 #include "io/image/decode/decode_colors.hpp"
 #include "io/image/decode/decode_image.hpp"

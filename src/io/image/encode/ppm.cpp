@@ -1,6 +1,6 @@
 #include "io/image/encode/ppm.hpp"
 
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/image/encode/eight_bits.hpp"
 
 #include <microtrace/error.hpp>

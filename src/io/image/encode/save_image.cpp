@@ -1,4 +1,4 @@
-#include "float_environment.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file_name.hpp"
 #include "io/image/encode/png.hpp"
