@@ -6,6 +6,7 @@ Each decoder that the package brings along is used once, and each warning is an 
 import subprocess
 import sys
 import tempfile
+import urllib.request
 import warnings
 from pathlib import Path
 
@@ -34,4 +35,15 @@ with tempfile.TemporaryDirectory() as name:
         check=True,
     )
     assert path.read_bytes() == (folder / "knot.png").read_bytes()
+    module = [sys.executable, "-m", "microtrace"]
+    words = ["dataset", scenes / "knot.glb", "--views", "orbit:2", "--size", "64x48", "--spp", "2"]
+    subprocess.run(
+        [*module, *words, "--formats", "png,npz,coco,bop", "-o", folder / "set", "-q"], check=True
+    )
+    subprocess.run([*module, "verify", folder / "set", "-q"], check=True)
+    # The page needs the module for HTTP.
+    with prepared.view() as view, urllib.request.urlopen(view.url, timeout=60) as page:
+        assert b"<canvas" in page.read()
+    with np.load(folder / "set/000001.npz") as arrays:
+        assert arrays["color"].shape == (48, 64, 3)
 print(f"microtrace {mt.__version__} works, from {Path(mt.__file__).parent}")

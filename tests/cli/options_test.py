@@ -15,6 +15,7 @@ from program import ProgramTest
 
 SOURCE = Path(sys.argv[2]).resolve()
 SCENE = SOURCE / "scenes/perspective1.json"
+MOVING = SOURCE / "scenes/gltf/moving.glb"
 LIGHT = [SCENE, "--integrator", "path", "--size", "16x12", "-q"]
 # Other options that an option requires.
 CONTEXT = {"--fov": ["--view", "front"], "--up": ["--eye", "0,0,30"], "--aperture": ["--focus", "3"], "--fps": ["--frames", "3:3"],
@@ -28,6 +29,15 @@ SAMPLES_STAY = {
     "--threads": "3", "--stats": None, "--progress": "none", "--exposure": "2", "--tonemap": "aces", "--memory-limit": "1G",
     "--max-time": "600", "--verbose": None, "--strict": None, "--time-limit": "500", "--save-every": "1", "--ppm": "ascii",
     "--allow-path": ".", "--aov": "depth", "--sidecar": "a.json", "--progressive": None, "--spp": "3"}
+# Options that change an option with which the checkpoint was made, and the words of both.
+SAMPLES_DEPEND_ON_MORE = [
+    (SCENE, ["--view", "front"], ["--fov", "30"]), (SCENE, ["--eye", "0,0,30"], ["--up", "1,0,0"]),
+    (SCENE, ["--eye", "0,0,30"], ["--target", "0,1,0"]), (SCENE, ["--aperture", "0.2", "--focus", "3"], ["--aperture", "0.1"]),
+    (SCENE, ["--aperture", "0.1", "--focus", "3"], ["--focus", "4"]), (SCENE, ["--shutter", "0:0.1"], ["--shutter-times", "4"]),
+    (MOVING, ["--time", "0.5"], ["--animation", "0"])]
+# Options of files, of sequences and of the run, which have tests of their own, and those that render nothing.
+OTHERS = {"SCENE", "--output", "--integrator", "--denoise", "--frames", "--fps", "--variant", "--instances", "--checkpoint", "--resume",
+          "--shard", "--display-server", "--end-with-parent", "--validate", "--version", "--quiet", "--help"}
 
 
 class Options(ProgramTest):
@@ -71,6 +81,23 @@ class Options(ProgramTest):
             self.assertEqual(result.returncode, 2, (option, result.stderr))
             self.assertIn(b"c: holds samples of another picture: ", result.stderr)
         self.assertEqual((self.folder / "c").read_bytes(), checkpoint)
+
+    def test_samples_depend_on_details_of_other_options(self):
+        for scene, before, changed in SAMPLES_DEPEND_ON_MORE:
+            with self.subTest(changed=changed):
+                (self.folder / "c").unlink(missing_ok=True)
+                words = [scene, *LIGHT[1:], "--spp", "2", "-o", "a.exr"]
+                result = self.run_program(*words, *before, "--checkpoint", "c")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                kept = [word for i, word in enumerate(before) if not {word, before[i - i % 2]} & {changed[0]}]
+                result = self.run_program(*words, *kept, *changed, "--resume", "c")
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn(b"c: holds samples of another picture: ", result.stderr)
+
+    def test_each_option_has_a_test_of_samples(self):
+        known = {option.name for option in self.options()}
+        tested = {*SAMPLES_DEPEND, *SAMPLES_STAY, *(changed[0] for _, _, changed in SAMPLES_DEPEND_ON_MORE), *OTHERS}
+        self.assertEqual(known, tested)
 
     def test_other_options_may_differ(self):
         whole = self.render(*LIGHT, "--spp", "3")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests that several threads render the same pictures as one thread, for every rendering method. Under the thread
+"""Tests that several threads render the same pictures as one thread, for each integrator and kind of run. Under the thread
 sanitizer, a data race ends the program with exit code 66. With MICROTRACE_ONLY_RACES, pictures are compared with those of
 two threads, because renderings by one thread take a third of the time and have no races.
 
@@ -43,6 +43,24 @@ class Threads(ProgramTest):
     def test_path(self):
         for scene in (JSON, GLTF, SCENES / "gltf/knot.glb"):
             self.assert_same(scene, *LIT)
+
+    def test_options_with_tables_of_their_own(self):
+        small = [*LIT[:4], "--size", "40x30", "--spp", "3"]
+        for scene, *options in ((GLTF, "--guiding"), (GLTF, "--ground"), (GLTF, "--view", "front", "--aperture", "0.1", "--focus", "3"),
+                                (SCENES / "gltf/moving.glb", "--shutter", "0:0.5"), (GLTF, "--instances", "share"),
+                                (SCENES / "gltf/lamps.glb", "--exposure", "auto")):
+            self.assert_same(scene, *small, *options)
+
+    def test_data_sets(self):
+        sets = []
+        for threads in dict.fromkeys((LEAST, *THREADS)):
+            result = self.run_program("dataset", GLTF, "-o", f"set{threads}", "--views", "orbit:2", "--size", "40x30", "--spp", "2",
+                                      "--formats", "png,coco", "--amodal", "-t", threads)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            folder = self.folder / f"set{threads}"
+            sets.append({path.name: path.read_bytes() for path in folder.rglob("*") if path.is_file()})
+        self.assertIn("coco.json", sets[0])
+        self.assertEqual(sets[1:], sets[:1] * (len(sets) - 1))
 
     def test_passes(self):
         whole = self.assert_same(GLTF, *LIT)
