@@ -355,7 +355,7 @@ TEST_P(Escape, NoPathLeaves) {
   std::cout << count.bounces << " bounces, " << count.transmitted << " of them through a surface, "
             << count.without_origin << " without an origin\n";
   EXPECT_GT(count.transmitted, bounces / 50);
-  EXPECT_LT(count.without_origin, bounces / 2);
+  EXPECT_LT(count.without_origin, bounces / 25);  // the table of docs/exactness.md: up to 2.2 %
 }
 
 }  // namespace

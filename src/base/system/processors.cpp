@@ -28,7 +28,8 @@ std::optional<double> quota_of(const fs::path& group, CgroupVersion version) {
   return quota / period;
 }
 
-/// Returns the number of processors on which this process may run.
+}  // namespace
+
 unsigned allowed_processors() {
   // hardware_concurrency() also counts processors that a container or taskset excludes.
   cpu_set_t allowed;
@@ -36,8 +37,6 @@ unsigned allowed_processors() {
     return static_cast<unsigned>(std::max(1, CPU_COUNT(&allowed)));
   return std::max(1U, std::thread::hardware_concurrency());
 }
-
-}  // namespace
 
 std::optional<unsigned> processor_quota(const fs::path& root) {
   std::optional<unsigned> least;

@@ -6,6 +6,10 @@
 
 namespace microtrace {
 
+/// Returns the number of processors on which this process may run, for which libraries start
+/// threads whatever the quota is.
+[[nodiscard]] unsigned allowed_processors();
+
 /// Returns the processor time per time that the groups grant, rounded up: 2 for `docker run
 /// --cpus 1.5`. Returns nothing if no group has such a limit. `root` is the folder that contains
 /// proc and sys. More threads than this would be stopped for a part of each period.

@@ -1,12 +1,12 @@
 #include "io/image/module.hpp"
 
+#include "base/system/processors.hpp"
 #include "base/system/start_threads.hpp"
 #include "io/image/encode/lack_of_memory.hpp"
 #include "io/image/encode/module_picture.hpp"
 #include "io/module_function.hpp"
 
 #include <microtrace/error.hpp>
-#include <microtrace/threads.hpp>
 
 #include <dlfcn.h>
 #include <utility>
@@ -67,7 +67,7 @@ void require_threads(const FormatModule& module, const std::string& file) {
   if (!module.starts_threads) return;
   const auto require = [&] {
     // OpenImageIO itself starts one more thread per processor.
-    if (can_start_threads(kThreadsOfLibraries + default_threads())) return true;
+    if (can_start_threads(kThreadsOfLibraries + allowed_processors())) return true;
     throw Error(ErrorKind::limit, file,
                 "needs OpenImageIO, whose libraries start more threads than the limits on "
                 "processes and memory allow; raise these, or use .ppm, .png or .exr");
