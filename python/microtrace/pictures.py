@@ -28,7 +28,8 @@ from ._arrays import (
     as_threads,
     as_vector,
 )
-from .cameras import Camera, PerspectiveCamera, Vector, as_degrees
+from ._brief import Vector
+from .cameras import Camera, PerspectiveCamera, as_degrees
 from .errors import SceneWarning, warn_caller
 from .lights import Environment
 from .prepared import PreparedScene

@@ -10,7 +10,8 @@ import numpy as np
 from distributed import Client
 
 from .._arrays import MOST, as_integer, as_size
-from ..cameras import Camera, Vector
+from .._brief import Vector
+from ..cameras import Camera
 from ..errors import warn_caller
 from ..lights import Environment
 from ..pictures import (
