@@ -170,14 +170,14 @@ void write_dataset(const Arguments& arguments) {
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(order.size()));
   }
   const std::uint32_t missing = folder.missing();
-  if (missing == 0) {
+  // The files of a finished data set may be another user's, and read-only.
+  if (missing == 0 && (rendered != 0 || !folder.is_finished())) {
     // A power failure can damage the records of shards that have ended.
     for (const std::uint32_t view : folder.damaged()) {
       dataset.render(folder, view);
       ++rendered;
     }
-    // Files that another user has written may be complete but read-only.
-    if (rendered != 0 || !folder.is_finished()) dataset.finish(folder);
+    dataset.finish(folder);
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   report(arguments, rendered, kept, missing, seconds.count());

@@ -15,9 +15,12 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// An option that not all integrators can apply.
 struct LimitedOption {
   std::string_view name;
-  /// Returns the error if the option can't be applied, else an empty text.
-  std::string (*error)(const Arguments&);
   void (*omit)(Arguments&);
+  /// Returns true if the option has an effect in path tracing. Null if `error` decides.
+  bool (*needs_paths)(const Arguments&) = nullptr;
+  std::string_view reason{};  ///< why it needs path tracing, as the end of a sentence
+  /// Returns the error if the option can't be applied, else an empty text.
+  std::string (*error)(const Arguments&) = nullptr;
   /// Returns those of the option's values that can't be applied; null if it has only one value.
   std::string (*values)(const Arguments&) = nullptr;
 };
@@ -28,6 +31,12 @@ std::string path_error(const Arguments& a, bool is_given, std::string_view optio
   if (!is_given || a.is_path_traced()) return "";
   return std::string(option) + " needs path tracing" + std::string(reason) +
          "; use --integrator path";
+}
+
+/// Returns the error if the option can't be applied, else an empty text.
+std::string error_of(const LimitedOption& option, const Arguments& a) {
+  if (option.error != nullptr) return option.error(a);
+  return path_error(a, option.needs_paths(a), option.name, option.reason);
 }
 
 std::string channel_error(const Arguments& a) {
@@ -53,93 +62,69 @@ std::string samples_error(const Arguments& a) {
 
 constexpr std::array kLimitedOptions{
     LimitedOption{.name = "--background",
+                  .omit = [](Arguments& a) { a.environment.background.reset(); },
                   .error =
                       [](const Arguments& a) {
                         return path_error(a, a.environment.shows_environment(),
                                           "--background: env");
-                      },
-                  .omit = [](Arguments& a) { a.environment.background.reset(); }},
-    LimitedOption{.name = "--aov",
-                  .error = channel_error,
-                  .omit = [](Arguments& a) { a.aovs.sampled.clear(); },
-                  .values = sampled_channels},
-    LimitedOption{.name = "--aperture",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.camera.lens_radius.value_or(0) > 0, "--aperture",
-                                          ", because other pictures have no depth of field");
-                      },
-                  .omit =
-                      [](Arguments& a) {
-                        a.camera.lens_radius.reset();
-                        a.camera.focus.reset();
                       }},
-    LimitedOption{.name = "--max-depth",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.path.max_depth != PathOptions().max_depth,
-                                          "--max-depth");
-                      },
-                  .omit = [](Arguments& a) { a.path.max_depth = PathOptions().max_depth; }},
-    LimitedOption{.name = "--backfaces",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.path.backfaces != PathOptions().backfaces,
-                                          "--backfaces");
-                      },
-                  .omit = [](Arguments& a) { a.path.backfaces = PathOptions().backfaces; }},
-    LimitedOption{.name = "--ground",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.path.ground.has_value(), "--ground",
-                                          ", which casts shadows");
-                      },
-                  .omit = [](Arguments& a) { a.path.ground.reset(); }},
+    LimitedOption{.name = "--aov",
+                  .omit = [](Arguments& a) { a.aovs.sampled.clear(); },
+                  .error = channel_error,
+                  .values = sampled_channels},
     LimitedOption{
-        .name = "--guiding",
-        .error = [](const Arguments& a) { return path_error(a, a.path.guiding, "--guiding"); },
-        .omit = [](Arguments& a) { a.path.guiding = false; }},
+        .name = "--aperture",
+        .omit =
+            [](Arguments& a) {
+              a.camera.lens_radius.reset();
+              a.camera.focus.reset();
+            },
+        .needs_paths = [](const Arguments& a) { return a.camera.lens_radius.value_or(0) > 0; },
+        .reason = ", because other pictures have no depth of field"},
+    LimitedOption{
+        .name = "--max-depth",
+        .omit = [](Arguments& a) { a.path.max_depth = PathOptions().max_depth; },
+        .needs_paths =
+            [](const Arguments& a) { return a.path.max_depth != PathOptions().max_depth; }},
+    LimitedOption{
+        .name = "--backfaces",
+        .omit = [](Arguments& a) { a.path.backfaces = PathOptions().backfaces; },
+        .needs_paths =
+            [](const Arguments& a) { return a.path.backfaces != PathOptions().backfaces; }},
+    LimitedOption{.name = "--ground",
+                  .omit = [](Arguments& a) { a.path.ground.reset(); },
+                  .needs_paths = [](const Arguments& a) { return a.path.ground.has_value(); },
+                  .reason = ", which casts shadows"},
+    LimitedOption{.name = "--guiding",
+                  .omit = [](Arguments& a) { a.path.guiding = false; },
+                  .needs_paths = [](const Arguments& a) { return a.path.guiding; }},
     LimitedOption{.name = "--bsdf",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.path.bsdf == BsdfModel::spec, "--bsdf");
-                      },
-                  .omit = [](Arguments& a) { a.path.bsdf = BsdfModel::conserving; }},
+                  .omit = [](Arguments& a) { a.path.bsdf = BsdfModel::conserving; },
+                  .needs_paths = [](const Arguments& a) { return a.path.bsdf == BsdfModel::spec; }},
     LimitedOption{.name = "--denoise",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.denoises, "--denoise",
-                                          ", because other pictures have no noise");
-                      },
-                  .omit = [](Arguments& a) { a.denoises = false; }},
+                  .omit = [](Arguments& a) { a.denoises = false; },
+                  .needs_paths = [](const Arguments& a) { return a.denoises; },
+                  .reason = ", because other pictures have no noise"},
     LimitedOption{.name = "--quality",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.sampling.quality != nullptr, "--quality");
-                      },
-                  .omit = [](Arguments& a) { a.sampling.quality = nullptr; }},
+                  .omit = [](Arguments& a) { a.sampling.quality = nullptr; },
+                  .needs_paths = [](const Arguments& a) { return a.sampling.quality != nullptr; }},
     LimitedOption{.name = "--target-error",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.sampling.target_error > 0, "--target-error");
-                      },
-                  .omit = [](Arguments& a) { a.sampling.target_error = 0; }},
-    LimitedOption{.name = "--time-limit",
-                  .error =
-                      [](const Arguments& a) {
-                        return path_error(a, a.sampling.time_limit < kNoLimit, "--time-limit");
-                      },
-                  .omit = [](Arguments& a) { a.sampling.time_limit = kNoLimit; }},
+                  .omit = [](Arguments& a) { a.sampling.target_error = 0; },
+                  .needs_paths = [](const Arguments& a) { return a.sampling.target_error > 0; }},
+    LimitedOption{
+        .name = "--time-limit",
+        .omit = [](Arguments& a) { a.sampling.time_limit = kNoLimit; },
+        .needs_paths = [](const Arguments& a) { return a.sampling.time_limit < kNoLimit; }},
     LimitedOption{.name = "--spp",
-                  .error = samples_error,
-                  .omit = [](Arguments& a) { a.sampling.samples = 0; }},
+                  .omit = [](Arguments& a) { a.sampling.samples = 0; },
+                  .error = samples_error},
 };
 
 }  // namespace
 
 void check_applicable(const Arguments& arguments) {
   for (const LimitedOption& option : kLimitedOptions) {
-    const std::string error = option.error(arguments);
+    const std::string error = error_of(option, arguments);
     if (!error.empty()) refuse_usage(error);
   }
 }
@@ -147,7 +132,7 @@ void check_applicable(const Arguments& arguments) {
 std::vector<std::string> omit_inapplicable(Arguments& arguments) {
   std::vector<std::string> omitted;
   for (const LimitedOption& option : kLimitedOptions) {
-    if (option.error(arguments).empty()) continue;
+    if (error_of(option, arguments).empty()) continue;
     std::string& words = omitted.emplace_back(option.name);
     if (option.values != nullptr) words += ' ' + option.values(arguments);
     option.omit(arguments);

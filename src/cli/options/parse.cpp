@@ -143,9 +143,10 @@ void identify_dataset(const std::vector<Given>& all, DatasetOptions& dataset) {
     if (std::ranges::find(kNotOfFiles, option->name()) != kNotOfFiles.end()) continue;
     if (is_of_run(*option) || is_default(given)) continue;
     for (const std::string& value : values) {
-      std::string argument = value.starts_with('-') ? "./" + value : value;  // the scene's name
-      if (!option->is_positional()) {
-        argument = option->name();
+      std::string argument(option->name());
+      if (option->is_positional()) {
+        argument = value.starts_with('-') ? "./" + value : value;  // the scene
+      } else {
         if (!option->is_switch()) argument.append("=").append(value);
         if (option->name() != "--allow-path")
           dataset.identity.append(dataset.identity.empty() ? "" : " ").append(argument);

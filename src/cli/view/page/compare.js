@@ -44,11 +44,6 @@ function textOf(difference) {
 export class Comparison {
   first = null; // the first pixel that differs
 
-  /** Divides the pictures at the wiper. */
-  place(left, right) {
-    this.#showWiper(left.canvas, right.canvas);
-  }
-
   show(left, right) {
     this.place(left, right);
     if (!left.hasPicture || !right.hasPicture) return;
@@ -64,7 +59,8 @@ export class Comparison {
     byId("difference-picture")?.remove();
   }
 
-  #showWiper(left, right) {
+  /** Divides the pictures at the wiper. */
+  place({ canvas: left }, { canvas: right }) {
     const part = Number(byId("wiper").value);
     right.style.clipPath = `inset(0 0 0 ${part}%)`;
     const box = left.getBoundingClientRect();
