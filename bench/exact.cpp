@@ -1,8 +1,8 @@
 // Measures one exact decision for each shape, which is the cost of a ray for which the filters are
 // unsure.
 
+#include "exact/first_hit.hpp"
 #include "exact/grid.hpp"
-#include "exact/intersect.hpp"
 
 #include <benchmark/benchmark.h>
 

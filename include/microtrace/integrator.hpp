@@ -39,7 +39,7 @@ struct MICROTRACE_EXPORT World {
   const PathGuide* guide = nullptr;  ///< null if paths are not guided
   /// Triangles whose backs have no coverage for camera rays, or null for none. It may leave out
   /// some of them.
-  const BitPage* const* hidden_backs = nullptr;
+  const BitPage* const* open_backs = nullptr;
 
   /// Returns position, normals, texture coordinates, object and triangle at a hit of `ray`.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const {
@@ -87,17 +87,17 @@ struct MICROTRACE_EXPORT RayCounts {
 };
 
 /// The maximum number of rays per call of an integrator: kRandomBatch for Monte Carlo integrators,
-/// kMaxBatch for others.
-inline constexpr std::size_t kRandomBatch = 1024, kMaxBatch = 64;
+/// kRegularBatch for others.
+inline constexpr std::size_t kRandomBatch = 1024, kRegularBatch = 64;
 
 class MICROTRACE_EXPORT Integrator {
  public:
   virtual ~Integrator() = default;
 
   /// Sets samples[i] to the result for rays[i] with ids[i]. All spans have the same size, at most
-  /// kMaxBatch, or kRandomBatch if is_random(). Consecutive rays are neighbors in the picture, so
-  /// Bvh::intersect can trace them as packets. Each result must depend only on its own ray and id.
-  /// Several threads call this function at the same time.
+  /// kRegularBatch, or kRandomBatch if is_random(). Consecutive rays are neighbors in the picture,
+  /// so Bvh::intersect can trace them as packets. Each result must depend only on its own ray and
+  /// id. Several threads call this function at the same time.
   virtual void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
                      std::span<Sample> samples) const = 0;
 

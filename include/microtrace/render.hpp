@@ -58,10 +58,10 @@ struct Passes {
   /// render() throws, they hold the passes that ended. If null, starts without samples.
   SampleSums* sums = nullptr;
   /// Takes only the samples in this range; nothing: all samples.
-  std::optional<SampleRange> part{};
+  std::optional<SampleRange> range{};
   /// If above 0, a tile of 8 x 8 pixels takes no more samples once its error (docs/outputs.md) and
   /// the errors of its eight neighbors are at most this value. The errors are evaluated at 32, 64,
-  /// 128, ... samples. Can't be combined with `part`.
+  /// 128, ... samples. Can't be combined with `range`.
   double target_error = 0;
   /// No pass except the first starts later than this many seconds after the call of render().
   double time_limit = std::numeric_limits<double>::infinity();

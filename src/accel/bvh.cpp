@@ -11,11 +11,11 @@
 #include "accel/resolve/open_side.hpp"
 #include "accel/resolve/packet_resolver.hpp"
 #include "accel/spawn/clear_point.hpp"
-#include "accel/spawn/fast_spawn.hpp"
+#include "accel/spawn/shape_spawn.hpp"
 #include "accel/spawn/spawn_among.hpp"
 #include "accel/stage_counts.hpp"
 #include "base/system/float_environment.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 
 #include <microtrace/bvh.hpp>
 
@@ -40,7 +40,7 @@ std::optional<Hit> test_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   const HitResolver resolver(primitives, ray);
   const ExactHits exactly(primitives, ray);
-  ClosestHit closest;
+  ClosestHitFinder closest;
   for (PrimitiveId id = 0; id < primitives.count(); ++id) {
     ++fallback_stages.filters;
     closest.consider(id, resolver.filtered(id), exactly);
@@ -55,7 +55,7 @@ std::optional<Hit> Bvh::Impl::intersect(const Ray& ray) const {
   if (t_scale == 0) return test_all(primitives, ray);
   HitResolver resolver(primitives, ray, t_scale);
   ClosestSoFar best = resolver.no_hit();
-  for (const PrimitiveId id : outside) resolver.consider(id, best);
+  for (const PrimitiveId id : unbounded) resolver.consider(id, best);
   if (has_tree) kernels->closest(view(), kernel_ray(ray, t_scale), resolver.fallback(), best);
   if (best.id == kNoPrimitive) return std::nullopt;
   return resolver.hit(best.id);
@@ -71,7 +71,7 @@ std::optional<Hit> Bvh::Impl::next(const Ray& ray, PrimitiveId after) const {
   if (t_scale == 0) {
     for (PrimitiveId id = 0; id < primitives.count(); ++id) resolver.consider(id, best);
   } else {
-    for (const PrimitiveId id : outside) resolver.consider(id, best);
+    for (const PrimitiveId id : unbounded) resolver.consider(id, best);
     if (has_tree) {
       const KernelRay from = kernel_ray_from(ray, t_scale, known.bounds());
       kernels->closest(view(), from, resolver.fallback(), best);
@@ -85,8 +85,8 @@ std::optional<Vec3> Bvh::Impl::search_origin(const Spawn& spawn) const {
   ++fallback_stages.searched_origins;
   std::optional<Vec3> origin;
   if (exact::is_valid(*spawn.ray) && spawn.hit.id < primitives.count()) {
-    origin = spawn_among(primitives, has_tree ? &tree : nullptr, outside, *spawn.ray, spawn.hit.id,
-                         spawn.direction);
+    origin = spawn_among(primitives, has_tree ? &tree : nullptr, unbounded, *spawn.ray,
+                         spawn.hit.id, spawn.direction);
   }
   if (!origin) ++fallback_stages.missing_origins;
   return origin;
@@ -97,7 +97,7 @@ bool Bvh::Impl::occluded(const Ray& ray) const {
   if (t_scale == 0) return test_all(primitives, ray).has_value();
   HitResolver resolver(primitives, ray, t_scale);
   ClosestSoFar best = resolver.no_hit();
-  for (const PrimitiveId id : outside) {
+  for (const PrimitiveId id : unbounded) {
     resolver.consider(id, best);
     if (best.id != kNoPrimitive) return true;
   }
@@ -112,7 +112,7 @@ bool Bvh::Impl::intersect_packet(std::span<const Ray> rays, const OpenSide& open
   constexpr std::size_t kHitsOfLine = 64 / sizeof(std::optional<Hit>);
   for (std::size_t i = 0; i < rays.size(); i += kHitsOfLine) __builtin_prefetch(&hits[i], 1);
   PacketResolver resolver(primitives, *kernels, open, rays, packet);
-  for (const PrimitiveId id : outside) resolver.consider_all(id, packet);
+  for (const PrimitiveId id : unbounded) resolver.consider_all(id, packet);
   if (has_tree) {
     TreeView from = view();
     from.open = open;
@@ -181,7 +181,7 @@ const Primitives& Bvh::primitives() const {
 }
 
 std::optional<Box> Bvh::bounds() const {
-  if (!impl_->has_tree || !impl_->outside.empty()) return std::nullopt;
+  if (!impl_->has_tree || !impl_->unbounded.empty()) return std::nullopt;
   return Box{.lo = impl_->tree.bounds.lo, .hi = impl_->tree.bounds.hi};
 }
 
@@ -225,7 +225,7 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
     for (Spawn& spawn : represented) spawn.hit.id = duplicates.representative(spawn.hit.id);
     spawns = represented;
   }
-  FastSpawns quick = impl_->make_spawns();
+  SpawnBatch quick = impl_->make_spawns();
   while (!spawns.empty()) {
     const std::size_t done = quick.origins(spawns, origins);
     for (std::size_t i = 0; i < done; ++i) {
@@ -238,8 +238,8 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
 
 bool Bvh::is_clear(const Vec3& p) const {
   const FloatEnvironment environment;
-  return is_clear_among(impl_->primitives, impl_->has_tree ? &impl_->tree : nullptr, impl_->outside,
-                        p);
+  return is_clear_among(impl_->primitives, impl_->has_tree ? &impl_->tree : nullptr,
+                        impl_->unbounded, p);
 }
 
 bool Bvh::occluded(const Ray& ray) const {

@@ -8,8 +8,8 @@
 #include "accel/kernels/kernel.hpp"
 #include "accel/large_triangles.hpp"
 #include "accel/ray_stream.hpp"
-#include "accel/spawn/fast_spawn.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
+#include "accel/spawn/shape_spawn.hpp"
 
 #include <microtrace/bvh.hpp>
 
@@ -47,13 +47,13 @@ struct Bvh::Impl {
 
   [[nodiscard]] RayStream::Target stream_target() const {
     return {.primitives = primitives,
-            .outside = outside,
+            .unbounded = unbounded,
             .kernels = *kernels,
             .tree = view_without_few(),
             .duplicates = tree.duplicates};
   }
-  [[nodiscard]] FastSpawns make_spawns() const {
-    return {primitives, outside, *kernels, *spawn_kernels,
+  [[nodiscard]] SpawnBatch make_spawns() const {
+    return {primitives, unbounded, *kernels, *spawn_kernels,
             has_tree ? std::optional(view_without_few()) : std::nullopt};
   }
 
@@ -88,7 +88,7 @@ struct Bvh::Impl {
   Primitives primitives;
   std::shared_ptr<const BvhTree> shared;
   const Tree& tree = shared->tree;
-  const std::vector<PrimitiveId>& outside = tree.unbounded;  // tested one by one
+  const std::vector<PrimitiveId>& unbounded = tree.unbounded;  // tested one by one
   bool has_tree = tree.has_leaves();
   std::unique_ptr<const FewTriangles> few = few_triangles(tree);
   LargeTriangles large = few ? LargeTriangles{} : large_triangles(tree);

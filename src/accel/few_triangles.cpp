@@ -112,10 +112,10 @@ bool join(const FewTriangles::Entry& first, const FewTriangles::Entry& second, i
   const double more_product = 10 / (15 * 0x1p-24) * em * off;
   if (more_product > most_growth * m) return false;
   put_edges(a, b, c, facet);
-  const auto rounded_up = [](double x) { return static_cast<float>(x * (1 + 0x1p-20) + 0x1p-126); };
-  facet.largest_edge = rounded_up(em);
-  facet.edge_product = rounded_up(m + more_product);
-  facet.height_slack = rounded_up(6 * m * off);
+  const auto enlarged = [](double x) { return static_cast<float>(x * (1 + 0x1p-20) + 0x1p-126); };
+  facet.largest_edge = enlarged(em);
+  facet.edge_product = enlarged(m + more_product);
+  facet.height_slack = enlarged(6 * m * off);
   facet.box = common_box(first.box, second.box);
   facet.second = number;
   return true;

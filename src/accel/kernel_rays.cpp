@@ -2,7 +2,7 @@
 
 #include "accel/packet_order.hpp"
 #include "accel/resolve/hit_resolver.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 
 #include <algorithm>
 #include <cmath>

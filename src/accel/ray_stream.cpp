@@ -52,17 +52,17 @@ void RayStream::fill(const RayColumns& rays) {
 
 void RayStream::prepare() {
   target_.kernels.prepare_stream(stream_);
-  ask_outside();
+  ask_unbounded();
 }
 
-void RayStream::ask_outside() {
-  if (target_.outside.empty()) return;
+void RayStream::ask_unbounded() {
+  if (target_.unbounded.empty()) return;
   for (std::size_t i = 0; i < count(); ++i) {
     if (!is_suited(i)) continue;
     const Ray own = ray(i);
     const HitResolver resolver(target_.primitives, own);
     ClosestSoFar best = no_hit(own);
-    for (const PrimitiveId id : target_.outside) consider(i, own, resolver, id, best);
+    for (const PrimitiveId id : target_.unbounded) consider(i, own, resolver, id, best);
     stream_.best_lo[i] = best.lo;
     stream_.best_hi[i] = best.hi;
     stream_.best_id[i] = best.id;

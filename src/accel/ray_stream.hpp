@@ -68,7 +68,7 @@ class RayStream {
   /// The scene to trace. All members must outlive the stream.
   struct Target {
     const Primitives& primitives;
-    std::span<const PrimitiveId> outside;  ///< primitives outside of the tree
+    std::span<const PrimitiveId> unbounded;  ///< primitives outside of the tree
     const Kernels& kernels;
     TreeView tree;
     const Duplicates& duplicates;  ///< of the tree
@@ -118,7 +118,7 @@ class RayStream {
   void fill(const Rays& rays);
   void fill(const RayColumns& rays);
   void prepare();
-  void ask_outside();
+  void ask_unbounded();
   void find_closest(const Rays& rays, std::span<std::optional<Hit>> hits);
   void find_closest(std::span<PrimitiveId> ids);
   void find_any(std::span<bool> results);

@@ -32,8 +32,8 @@ struct RayTracer::Queries {
 
   const Bvh::Impl& bvh;
   RayStream stream;
-  FastSpawns spawns;
-  std::array<PrimitiveId, FastSpawns::kHits> left{};
+  SpawnBatch spawns;
+  std::array<PrimitiveId, SpawnBatch::kHits> left{};
   HitPointLanes* points = nullptr;
 };
 

@@ -3,7 +3,7 @@
 /// Bvh.
 
 #include "accel/ray_stream.hpp"
-#include "accel/spawn/fast_spawn.hpp"
+#include "accel/spawn/shape_spawn.hpp"
 
 #include <microtrace/bvh.hpp>
 
@@ -39,7 +39,7 @@ class RayTracer {
   /// True if a ray hits primitive `id` before `other`. It must hit both.
   [[nodiscard]] bool is_first(const Ray& ray, PrimitiveId id, PrimitiveId other) const;
 
-  /// Sets the hits that rays leave, one in each lane of `points`; see FastSpawns::set_hits. There
+  /// Sets the hits that rays leave, one in each lane of `points`; see SpawnBatch::set_hits. There
   /// may be at most kSpawnLanes. `points` must remain valid for leave().
   void set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes, HitPointLanes& points);
   /// Sets the origins of rays that leave the `wanted` hits in the directions of `lanes`, as

@@ -30,7 +30,6 @@ std::vector<std::uint32_t> objects_of(const AnnotatedPicture& picture) {
 dataset::DrawnView view_of(const PreparedScene& scene, const AnnotatedPicture& picture,
                            const std::vector<std::uint32_t>& objects) {
   return {.index = picture.index,
-          .name = "",
           .scene = &scene,
           .camera = &picture.camera,
           .size = picture.size,

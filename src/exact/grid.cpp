@@ -1,6 +1,6 @@
 #include "exact/grid.hpp"
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/queries.hpp"
 #include "exact/range.hpp"
 

@@ -1,6 +1,6 @@
 #include "exact/planar.hpp"
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/numbers/vector.hpp"
 #include "exact/queries.hpp"
 #include "exact/range.hpp"

@@ -1,4 +1,4 @@
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/numbers/vector.hpp"
 #include "exact/queries.hpp"
 #include "exact/range.hpp"

@@ -1,6 +1,6 @@
 #include "exact/range.hpp"
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
+#include "exact/first_hit.hpp"
 #include "exact/flat.hpp"
-#include "exact/intersect.hpp"
 #include "exact/queries.hpp"
 #include "exact/range.hpp"
 

@@ -1,7 +1,7 @@
 #include "exact/triangle_hit.hpp"
 
+#include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 
 namespace microtrace::exact {
 

@@ -1,5 +1,5 @@
 #include "base/system/float_environment.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "explain/numbers.hpp"
 #include "explain/primitive.hpp"
 #include "render/camera_rays.hpp"

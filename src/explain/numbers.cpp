@@ -1,8 +1,8 @@
 #include "explain/numbers.hpp"
 
+#include "exact/first_hit.hpp"
 #include "exact/flat.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 #include "exact/numbers/round_to_double.hpp"
 #include "exact/planar.hpp"
 #include "exact/range.hpp"

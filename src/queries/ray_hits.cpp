@@ -4,7 +4,7 @@
 #include "accel/resolve/exact_hits.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 #include "base/system/float_environment.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "queries/duplicates.hpp"
 #include "queries/kernels/dispatch.hpp"
 #include "queries/ray_search.hpp"

@@ -86,11 +86,11 @@ void check(const RenderOptions& options) {
   const bool is_random = options.integrator != nullptr && options.integrator->is_random();
   if (options.passes) {
     if (!is_random) refuse_options("passes require a Monte Carlo integrator");
-    const SampleRange part = options.passes->part.value_or(SampleRange{0, options.samples});
-    if (options.passes->part && options.passes->target_error > 0)
-      refuse_options("passes.part can't be combined with passes.target_error");
-    if (part.first >= part.last || part.last > options.samples)
-      refuse_options("passes.part must be a nonempty range of the picture's samples, 0 to " +
+    const SampleRange range = options.passes->range.value_or(SampleRange{0, options.samples});
+    if (options.passes->range && options.passes->target_error > 0)
+      refuse_options("passes.range can't be combined with passes.target_error");
+    if (range.first >= range.last || range.last > options.samples)
+      refuse_options("passes.range must be a nonempty range of the picture's samples, 0 to " +
                      std::to_string(options.samples));
   }
   if (options.shutter) check(*options.shutter, options);

@@ -11,7 +11,7 @@
 namespace microtrace {
 namespace {
 
-static_assert(kTilePixels <= kMaxBatch);
+static_assert(kTilePixels <= kRegularBatch);
 
 /// Sums are float64, so that the mean of equal samples is exactly their color: a sum of 65536 equal
 /// float32 numbers is exact.
@@ -57,7 +57,7 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
   // The rays of a batch should be coherent, so batches consist of few pixels if pixels have many
   // samples.
   while (block_width_ * block_height_ > 1 &&
-         std::size_t{block_width_} * block_height_ * pattern_.size() > kMaxBatch) {
+         std::size_t{block_width_} * block_height_ * pattern_.size() > kRegularBatch) {
     (block_height_ == block_width_ ? block_height_ : block_width_) /= 2;
   }
 }
@@ -72,8 +72,8 @@ void TilePainter::set(std::uint32_t x, std::uint32_t y, const Sample& sample) co
 }
 
 void TilePainter::paint_block(const PixelRect& block) const {
-  RayBatch<kMaxBatch> batch(integrator_, film_.has_alpha());
-  std::array<double, kMaxBatch> film_x, film_y;  // of the batch's samples
+  RayBatch<kRegularBatch> batch(integrator_, film_.has_alpha());
+  std::array<double, kRegularBatch> film_x, film_y;  // of the batch's samples
   std::array<Sum, kTilePixels> sums;
   const bool is_single = pattern_.size() == 1;
   if (!is_single) sums.fill({});

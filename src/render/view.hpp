@@ -36,7 +36,7 @@ struct SceneView {
   /// The scene for integrators that compute no light.
   [[nodiscard]] World unlit_world(std::uint32_t samples) const {
     World result = world(samples);
-    result.hidden_backs = content->hidden_backs().pages();
+    result.open_backs = content->one_sided_triangles().pages();
     return result;
   }
   [[nodiscard]] World world(std::uint32_t samples) const {

@@ -1,6 +1,6 @@
 #include "base/system/float_environment.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 #include "scene/kernels/triangle.hpp"
 
 #include <microtrace/surface_interaction.hpp>

@@ -32,7 +32,6 @@ class RenderedView {
 
   [[nodiscard]] DrawnView view() const {
     return {.index = index_,
-            .name = "view " + std::to_string(index_),
             .scene = &scene_,
             .camera = &camera_,
             .size = size_,

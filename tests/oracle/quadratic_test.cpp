@@ -1,7 +1,7 @@
 /// Compares first_hit of planes, discs, spheres and quadrics with CGAL's real roots. Also compares
 /// the order of hits of different shapes.
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "oracle/real_roots.hpp"
 #include "oracle/rounding_check.hpp"
 #include "support/cases/adversarial_rays.hpp"

@@ -1,8 +1,8 @@
 /// Compares first_hit(Triangle) and first_hit(Plane) with CGAL: whether each ray hits and, for some
 /// hits, the parameter and its order.
 
+#include "exact/first_hit.hpp"
 #include "exact/grid.hpp"
-#include "exact/intersect.hpp"
 #include "exact/triangle_box.hpp"
 #include "oracle/cgal_intersections.hpp"
 #include "oracle/rounding_check.hpp"

@@ -3,7 +3,7 @@
 
 #include "accel/spawn/box_clearance.hpp"
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/reproduction.hpp"
 

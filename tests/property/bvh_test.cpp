@@ -1,7 +1,7 @@
 // Checks that Bvh returns the hit with the least (t, PrimitiveId) of all primitives. Exact
 // arithmetic determines the hit of each primitive.
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "support/cases/adversarial_rays.hpp"
 
 #include <microtrace/bvh.hpp>

@@ -3,8 +3,8 @@
 // every function.
 
 #include "accel/kernels/dispatch.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 #include "exact/triangle_hit.hpp"
 #include "support/cases/closed_bodies.hpp"
 #include "support/effort.hpp"

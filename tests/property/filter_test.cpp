@@ -2,7 +2,7 @@
 // the exact t.
 
 #include "accel/filters/shape_filter.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/reproduction.hpp"
 

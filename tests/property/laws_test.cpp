@@ -2,7 +2,7 @@
 // mirrored or permuted axes, scaling or translating by powers of two, the build method, and its
 // number of threads.
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "support/cases/adversarial_scenes.hpp"
 #include "support/effort.hpp"
 

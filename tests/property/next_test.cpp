@@ -2,7 +2,7 @@
 // this for every instruction set of the machine.
 
 #include "accel/kernels/dispatch.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "support/cases/adversarial_scenes.hpp"
 
 #include <microtrace/bvh.hpp>

@@ -1,7 +1,7 @@
 // Compares queries of many rays and points with tests of all primitives.
 
 #include "exact/crossing.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/nearest.hpp"
 #include "queries/locator.hpp"
 #include "simd/instruction_set.hpp"

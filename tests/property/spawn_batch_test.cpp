@@ -1,7 +1,7 @@
 // Checks that Bvh::spawn_origins gives the same bits as Bvh::spawn_origin for any batch.
 
 #include "accel/kernels/dispatch.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"
 

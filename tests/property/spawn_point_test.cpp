@@ -3,8 +3,8 @@
 
 #include "accel/kernels/dispatch.hpp"
 #include "accel/spawn/origin_search.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 #include "exact/range.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"

@@ -2,8 +2,8 @@
 // repeated hit of the same surface, and the distance to the hit point.
 
 #include "accel/kernels/dispatch.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 #include "exact/range.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"

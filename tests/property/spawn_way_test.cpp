@@ -1,8 +1,8 @@
 // Checks the guarantees of bvh.hpp for the segment to a spawned origin in degenerate cases: rays
 // within surfaces, triangles without area, and hits on vertices and edges.
 
+#include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 #include "exact/triangle_hit.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"

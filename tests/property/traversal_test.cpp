@@ -3,9 +3,9 @@
 // scales the number of rays.
 
 #include "accel/kernels/dispatch.hpp"
-#include "accel/resolve/closest_hit.hpp"
+#include "accel/resolve/closest_hit_finder.hpp"
 #include "accel/resolve/hit_resolver.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "support/cases/adversarial_scenes.hpp"
 #include "support/effort.hpp"
 #include "support/hit_by_definition.hpp"
@@ -38,7 +38,7 @@ std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   const HitResolver resolver(primitives, ray);
   const ExactHits exactly(primitives, ray);
-  ClosestHit closest;
+  ClosestHitFinder closest;
   for (PrimitiveId id = 0; id < primitives.count(); ++id)
     closest.consider(id, resolver.filtered(id), exactly);
   return closest.rounded(exactly);

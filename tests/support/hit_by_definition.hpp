@@ -2,7 +2,7 @@
 /// The nearest hit by its definition, and calls with each of the machine's kernels.
 
 #include "accel/kernels/dispatch.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 
 #include <microtrace/hit.hpp>
 #include <microtrace/primitives.hpp>

@@ -1,6 +1,6 @@
 #include "accel/resolve/exact_hits.hpp"
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/triangle_hit.hpp"
 
 namespace microtrace {

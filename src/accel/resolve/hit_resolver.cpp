@@ -25,7 +25,7 @@ ClosestSoFar outwards(double lo, double hi, PrimitiveId id) {
   return {.lo = rounded_down(lo), .hi = rounded_up(hi), .id = id};
 }
 
-ClosestSoFar closest_so_far(const ClosestHit& closest, const Ray& ray, double t_scale) {
+ClosestSoFar closest_so_far(const ClosestHitFinder& closest, const Ray& ray, double t_scale) {
   const auto found = closest.candidate();
   return found ? outwards(found->lo * t_scale, found->hi * t_scale, found->id)
                : no_hit(ray, t_scale);
@@ -42,7 +42,7 @@ HitResolver::HitResolver(const Primitives& primitives, const Ray& ray, double t_
 void HitResolver::consider(std::uint32_t id, ClosestSoFar& best) const {
   ++fallback_stages.filters;
   if (id == best.id) return;  // a triangle can be in several leaves
-  ClosestHit closest;
+  ClosestHitFinder closest;
   if (best.id != kNoPrimitive) consider(best.id, closest);
   consider(id, closest);
   if (closest.candidate()) best = closest_so_far(closest, *ray_, t_scale_);
@@ -72,7 +72,7 @@ Fallback HitResolver::fallback() {
           }};
 }
 
-void HitResolver::consider(std::uint32_t id, ClosestHit& closest) const {
+void HitResolver::consider(std::uint32_t id, ClosestHitFinder& closest) const {
   const FilterResult filtered = this->filtered(id);
   const auto next = after_ == nullptr ? std::optional(id) : after_->next(id, filtered);
   if (next) closest.consider(*next, filtered, ExactHits(*primitives_, *ray_));

@@ -4,7 +4,7 @@
 #include "accel/build/references/duplicates.hpp"
 #include "accel/filters/filter.hpp"
 #include "accel/kernels/kernel.hpp"
-#include "accel/resolve/closest_hit.hpp"
+#include "accel/resolve/closest_hit_finder.hpp"
 
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
@@ -27,7 +27,7 @@ namespace microtrace {
 /// Returns a hit with t in [lo, hi] in the kernels' form, with the interval rounded outwards to
 /// float32.
 [[nodiscard]] ClosestSoFar outwards(double lo, double hi, PrimitiveId id);
-[[nodiscard]] ClosestSoFar closest_so_far(const ClosestHit& closest, const Ray& ray,
+[[nodiscard]] ClosestSoFar closest_so_far(const ClosestHitFinder& closest, const Ray& ray,
                                           double t_scale = 1);
 
 class KnownHit;
@@ -57,7 +57,7 @@ class HitResolver {
   [[nodiscard]] Fallback fallback();
 
  private:
-  void consider(std::uint32_t id, ClosestHit& closest) const;
+  void consider(std::uint32_t id, ClosestHitFinder& closest) const;
   [[nodiscard]] Range range() const { return {.t_min = ray_->t_min, .t_max = ray_->t_max}; }
 
   const Primitives* primitives_;

@@ -39,7 +39,7 @@ bool meets(const Other&, const Bounds&) {
 }  // namespace
 
 bool is_clear_among(const Primitives& primitives, const Tree* tree,
-                    std::span<const PrimitiveId> outside, const Vec3& p) {
+                    std::span<const PrimitiveId> unbounded, const Vec3& p) {
   if (!is_filterable(p)) return false;
   const DVec3 middle(p), radius(spacing(p.x), spacing(p.y), spacing(p.z));
   const Bounds box{.lo = Vec3(middle - radius), .hi = Vec3(middle + radius)};  // exact in float32
@@ -50,7 +50,7 @@ bool is_clear_among(const Primitives& primitives, const Tree* tree,
              (is_filterable(shape) && clears_box(shape, middle, radius)) || !meets(shape, box);
     });
   };
-  std::ranges::for_each(outside, test);
+  std::ranges::for_each(unbounded, test);
   if (tree != nullptr) for_each_touching(*tree, box, test);
   return is_clear;
 }

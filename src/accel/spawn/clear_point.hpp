@@ -8,9 +8,9 @@
 
 namespace microtrace {
 
-/// Implements Bvh::is_clear. `outside` lists the primitives that are not in the tree. `tree` must
+/// Implements Bvh::is_clear. `unbounded` lists the primitives that are not in the tree. `tree` must
 /// be null if the tree has no leaves.
 [[nodiscard]] bool is_clear_among(const Primitives& primitives, const Tree* tree,
-                                  std::span<const PrimitiveId> outside, const Vec3& p);
+                                  std::span<const PrimitiveId> unbounded, const Vec3& p);
 
 }  // namespace microtrace

@@ -3,8 +3,8 @@
 /// that the search succeeds.
 
 #include "accel/filters/shape_filter.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 #include "exact/range.hpp"
 #include "exact/triangle_hit.hpp"
 

@@ -164,7 +164,7 @@ Bounds around(const Vec3& a, const Vec3& b, double margin) {
 /// the arrangement of all planes through the hit point.
 template <class Surface>
 std::optional<Vec3> search(Surface surface, const Primitives& primitives, const Tree* tree,
-                           std::span<const PrimitiveId> outside, const Ray& ray, PrimitiveId id,
+                           std::span<const PrimitiveId> unbounded, const Ray& ray, PrimitiveId id,
                            const Vec3& direction) {
   const std::optional<OriginSearch> start = origin_search(surface, ray, direction);
   if (!start) return std::nullopt;
@@ -179,7 +179,7 @@ std::optional<Vec3> search(Surface surface, const Primitives& primitives, const 
     Vec3 q = unsigned_zeros(DVec3(start->p) + along * (reach / length));
     const Neighbors::Place place(around(start->p, q, 4 * kSteps * unit));
     const auto add = [&](PrimitiveId other) { neighbors.add(other, place); };
-    std::for_each(outside.begin(), outside.end(), add);
+    std::for_each(unbounded.begin(), unbounded.end(), add);
     if (tree != nullptr) for_each_touching(*tree, place.box, add);
     for (int step = 0; step <= kSteps && is_finite(q); ++step) {
       if (surface.is_clear(q, direction, start->side) && neighbors.allow(q)) return q;
@@ -193,13 +193,13 @@ std::optional<Vec3> search(Surface surface, const Primitives& primitives, const 
 }  // namespace
 
 std::optional<Vec3> spawn_among(const Primitives& primitives, const Tree* tree,
-                                std::span<const PrimitiveId> outside, const Ray& ray,
+                                std::span<const PrimitiveId> unbounded, const Ray& ray,
                                 PrimitiveId id, const Vec3& direction) {
   return primitives.visit(id, [&](const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
-      return search(TriangleSurface(shape), primitives, tree, outside, ray, id, direction);
+      return search(TriangleSurface(shape), primitives, tree, unbounded, ray, id, direction);
     else
-      return search(ExactSurface(shape), primitives, tree, outside, ray, id, direction);
+      return search(ExactSurface(shape), primitives, tree, unbounded, ray, id, direction);
   });
 }
 

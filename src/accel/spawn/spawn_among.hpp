@@ -12,10 +12,11 @@
 
 namespace microtrace {
 
-/// Implements Bvh::spawn_origin. `outside` lists the primitives that are not in the tree. `tree`
+/// Implements Bvh::spawn_origin. `unbounded` lists the primitives that are not in the tree. `tree`
 /// must be null if the tree has no leaves.
 [[nodiscard]] std::optional<Vec3> spawn_among(const Primitives& primitives, const Tree* tree,
-                                              std::span<const PrimitiveId> outside, const Ray& ray,
-                                              PrimitiveId id, const Vec3& direction);
+                                              std::span<const PrimitiveId> unbounded,
+                                              const Ray& ray, PrimitiveId id,
+                                              const Vec3& direction);
 
 }  // namespace microtrace

@@ -83,7 +83,7 @@ std::vector<Diagnostic> SampleFiles::warnings() const {
 Passes SampleFiles::passes(const Display& display) {
   samples_.display = display;
   return {.sums = &samples_.sums,
-          .part = arguments_.sampling.range(),
+          .range = arguments_.sampling.range(),
           .target_error = arguments_.sampling.target_error,
           .time_limit = arguments_.sampling.time_limit,
           .after_each = [this](const SampleSums&) { save_if_due(); }};

@@ -100,11 +100,11 @@ bool is_scale(double x) {
 }
 
 void check(const DrawnView& view, const BopOptions& options) {
-  require_bop_camera(*view.camera, view.name);
+  require_bop_camera(*view.camera, "");
   if (!is_scale(options.millimeters_per_unit) || !is_scale(options.depth_scale))
-    throw Error(ErrorKind::usage, view.name, "scales must be positive, finite numbers");
+    throw Error(ErrorKind::usage, "", "scales must be positive, finite numbers");
   if (view.depth.size() != std::size_t{view.size.width} * view.size.height)
-    throw Error(ErrorKind::usage, view.name, "a view needs a depth for each of its pixels");
+    throw Error(ErrorKind::usage, "", "a view needs a depth for each of its pixels");
 }
 
 /// Returns the value of scene_camera.json for an image.
@@ -156,7 +156,6 @@ BopAnnotations bop_view(const DrawnView& view, const BopFrames& frames, const Ma
   const DepthSteps depth = depth_steps(view.depth, options);
   if (depth.too_far != 0) {
     Diagnostic warning;
-    warning.file = view.name;
     warning.message = std::to_string(depth.too_far) +
                       " depths exceed 65535 steps and are stored as 0; choose a larger depth scale";
     result.warnings.push_back(warning);

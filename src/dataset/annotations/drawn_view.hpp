@@ -16,7 +16,6 @@ inline constexpr std::uint32_t kNoObject = 0xFFFFFFFF;
 /// A rendered view. What the pointers and spans refer to must outlive the view.
 struct DrawnView {
   std::uint32_t index = 0;  ///< of the view in its data set
-  std::string name;
   const PreparedScene* scene = nullptr;
   const Camera* camera = nullptr;  ///< in scene coordinates, as in Scene::cameras
   ImageSize size;

@@ -142,11 +142,10 @@ class MaskMaker {
 
 void check(const DrawnView& view) {
   if (view.objects.size() != std::size_t{view.size.width} * view.size.height)
-    throw Error(ErrorKind::usage, view.name,
-                "a view needs the index of an object for each of its pixels");
+    throw Error(ErrorKind::usage, "", "a view needs the index of an object for each of its pixels");
   for (const std::uint32_t object : view.objects) {
     if (object != kNoObject && object >= view.scene->scene().objects.size())
-      throw Error(ErrorKind::usage, view.name, "the scene has no object " + std::to_string(object));
+      throw Error(ErrorKind::usage, "", "the scene has no object " + std::to_string(object));
   }
 }
 
@@ -204,7 +203,7 @@ Masks amodal_masks(const DrawnView& view, const QueryOptions& options) {
       static_cast<void>(render(*view.scene, *view.camera, size, render_options));
       covers = collector.take();
     } else if (options.progress && !options.progress(static_cast<double>(y1) / size.height)) {
-      throw Error(ErrorKind::canceled, view.name, "canceled");
+      throw Error(ErrorKind::canceled, "", "canceled");
     }
     auto cover = covers.begin();
     for (std::uint32_t y = y0; y < y1; ++y) {

@@ -15,7 +15,7 @@ namespace microtrace {
 namespace {
 
 constexpr std::size_t kMostSegments = 12;  ///< of a path
-constexpr std::size_t kMostLayers = 16;    ///< partly transparent surfaces on a segment
+constexpr std::size_t kMostPassed = 16;    ///< partly transparent surfaces that a segment meets
 
 /// The maximum roughness of a surface in which other surfaces are seen clearly.
 constexpr float kSmooth = 0.25F;
@@ -129,7 +129,7 @@ void FeatureTracer::step(std::size_t i, Hit hit) {
   const Ray& ray = rays_[i];
   const Vec3 d = unit<1>(ray.d);
   Path path = paths_[i];
-  for (std::size_t layer = 0; layer < kMostLayers; ++layer) {
+  for (std::size_t passed = 0; passed < kMostPassed; ++passed) {
     ShadingPoint point = world_.shading->point(ray, hit);
     point.width = path.footprint.at(point.at.distance);
     Shading::find_texel_address(point);

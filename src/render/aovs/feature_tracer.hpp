@@ -35,11 +35,11 @@ class FeatureTracer {
   explicit FeatureTracer(const World& world) : world_(world) {}
 
   /// Sets features[i] to those of the camera ray rays[i]. Both spans have the same size, at most
-  /// kMaxBatch.
+  /// kRegularBatch.
   void trace(std::span<const Ray> rays, std::span<DenoiseFeatures> features);
 
  private:
-  static constexpr std::size_t kMostPaths = 2 * kMaxBatch;  ///< each ray is split once at most
+  static constexpr std::size_t kMostPaths = 2 * kRegularBatch;  ///< each ray is split once at most
 
   /// A part of a camera ray's light that comes along one way.
   struct Path {

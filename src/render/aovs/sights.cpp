@@ -11,12 +11,12 @@
 
 namespace microtrace {
 
-static_assert(kMaxBatch == kSurfaceLanes);
+static_assert(kRegularBatch == kSurfaceLanes);
 
 Sights::Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs)
     : world_(world), rays_(rays) {
   const std::span<std::optional<Hit>> hits = std::span(hits_).first(rays.size());
-  intersect_fronts(world.bvh, rays, world.hidden_backs, hits);
+  intersect_fronts(world.bvh, rays, world.open_backs, hits);
   const auto find_seen = [&] {
     seen_ = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) seen_ |= std::uint64_t{hits[i].has_value()} << i;

@@ -43,10 +43,10 @@ class AovSet {
   return is_length ? std::numeric_limits<float>::infinity() : 0;
 }
 
-/// The first visible surfaces, as defined by Aov, of up to kMaxBatch rays.
+/// The first visible surfaces, as defined by Aov, of up to kRegularBatch rays.
 class Sights {
  public:
-  static constexpr std::size_t kSize = kMaxBatch;
+  static constexpr std::size_t kSize = kRegularBatch;
   template <class T>
   using Values = std::array<std::array<T, kSize>, 3>;  ///< indexed by channel and ray
 

@@ -137,7 +137,7 @@ std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
     rest /= size;
   }
   const double edge = grid_.cell_size * (1 + 2 * kMargin);
-  constexpr std::uint32_t kMostLayers = 4;
+  constexpr std::uint32_t kMostSurfaces = 4;
   const double above = grid_.cell_size * 0x1p-10;
   std::vector<Start> found;
   for (std::uint32_t i = 0; i < kProbes; ++i) {
@@ -150,7 +150,7 @@ std::vector<SkyVisibility::Start> SkyVisibility::starts(std::size_t index,
     const Ray ray{.o = in_range(from), .d = -about.direction(), .t_max = static_cast<float>(edge)};
     std::optional<Hit> hit = bvh_.intersect(ray);
     double last = -above;
-    for (std::uint32_t layer = 0; hit && layer < kMostLayers; ++layer) {
+    for (std::uint32_t count = 0; hit && count < kMostSurfaces; ++count) {
       const SurfacePoint at = shading_.point(ray, *hit).at;
       const Vec3 n = at.front ? at.n : -at.n;
       const std::optional<Hit> next = bvh_.next(ray, *hit);

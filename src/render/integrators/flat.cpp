@@ -25,8 +25,8 @@ Sample composite(const World& world, const Ray& ray, const Hit& first) {
 
 void FlatIntegrator::trace(const World& world, std::span<const Ray> rays,
                            std::span<const SampleId> /*ids*/, std::span<Sample> samples) const {
-  std::array<std::optional<Hit>, kMaxBatch> hits;
-  intersect_fronts(world.bvh, rays, world.hidden_backs, std::span(hits).first(rays.size()));
+  std::array<std::optional<Hit>, kRegularBatch> hits;
+  intersect_fronts(world.bvh, rays, world.open_backs, std::span(hits).first(rays.size()));
   for (std::size_t i = 0; i < rays.size(); ++i) {
     samples[i] = Sample{};
     if (!hits[i]) continue;

@@ -53,7 +53,7 @@ void Wave::intersect(std::span<const Ray> camera_rays) {
     if (knows_blocked()) find_blocked();
     return;
   }
-  intersect_fronts(world_->bvh, camera_rays, world_->hidden_backs,
+  intersect_fronts(world_->bvh, camera_rays, world_->open_backs,
                    std::span(camera_hits_).first(count_));
   for (std::size_t i = 0; i < count_; ++i)
     hits_[i] = camera_hits_[i] ? camera_hits_[i]->id : kNoPrimitive;
@@ -87,7 +87,7 @@ void Wave::step() {
   OutgoingRays outgoing{
       .tracer = tracer_, .shadows = shadow_rays_, .media = media_, .paths = *next_paths_};
   outgoing_ = &outgoing;
-  layer_ = 0;
+  passed_ = 0;
   do {
     for (std::size_t first = 0; first < count_; first += kShadingLanes) {
       step(first);

@@ -108,14 +108,15 @@ class Wave {
 
   /// Sets the footprint and the texel address of a point on path i.
   void prepare(std::size_t i, ShadingPoint& point) const;
-  /// The number of the pair of random numbers that decides about coverage at this layer.
-  [[nodiscard]] std::uint32_t coverage_pair(std::uint32_t layer) const {
-    return step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs;
+  /// The number of the pair of random numbers that decides about coverage behind `passed` partially
+  /// opaque surfaces.
+  [[nodiscard]] std::uint32_t coverage_pair(std::uint32_t passed) const {
+    return step_.pair(sampling::kCoveragePair) + passed * sampling::kPassedPairs;
   }
   /// True if the current segment of path i ends at the point. This is a random choice if the point
-  /// is partially opaque. `layer` is the number of such surfaces that the path has passed, and is
+  /// is partially opaque. `passed` is the number of such surfaces that the path has passed, and is
   /// incremented if it passes this one.
-  [[nodiscard]] bool stops(std::size_t i, const ShadingPoint& point, std::uint32_t& layer) const;
+  [[nodiscard]] bool stops(std::size_t i, const ShadingPoint& point, std::uint32_t& passed) const;
   /// Finds the next hit of path i behind `hit`, and sets `point` to its shading point.
   [[nodiscard]] std::optional<Hit> next(std::size_t i, const Hit& hit, ShadingPoint& point);
   /// The source of the light that arrives from behind through surfaces whose backs pass light.
@@ -125,10 +126,10 @@ class Wave {
     ShadingPoint point{};      ///< the hit's shading point
   };
   /// Looks for light from behind if path i's ray hits the front of a one-sided surface. `first`,
-  /// `point` and `layer` are the hit, its shading point and the number of its layer. `is_nearest`
-  /// is true if the hit is that of hits_. The result is empty if no light arrives.
+  /// `point` and `passed` are the hit, its shading point and the number of surfaces passed before.
+  /// `is_nearest` is true if the hit is that of hits_. The result is empty if no light arrives.
   [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
-                                   std::uint32_t layer, bool is_nearest);
+                                   std::uint32_t passed, bool is_nearest);
   /// The radiance that the surface emits toward path i. Except for camera rays, emission and
   /// coverage are looked up without a filter, as for light samples and shadow rays, because both
   /// must estimate the same light.
@@ -202,9 +203,9 @@ class Wave {
   std::array<PrimitiveId, kRandomBatch> blockers_;
   /// The number of blended surfaces that the current rays have passed. Paths that pass more than
   /// kMostPassed of them use next().
-  std::uint32_t layer_ = 0;
+  std::uint32_t passed_ = 0;
   static constexpr std::uint32_t kMostPassed = 16;
-  // These surfaces, by layer and slot.
+  // These surfaces, by their order along the ray and by slot.
   std::array<std::array<PrimitiveId, kRandomBatch>, kMostPassed> passed_ids_;
   // The paths that pass through another blended surface.
   std::array<std::uint32_t, kRandomBatch> passing_;

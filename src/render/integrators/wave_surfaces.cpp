@@ -154,7 +154,7 @@ Lanes Wave::add_simple(std::size_t first) {
   for (Lanes rest = passed; rest != 0; rest &= rest - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
     const std::uint32_t i = static_cast<std::uint32_t>(first) + lane;
-    passed_ids_[layer_][paths.slot[i]] = group.id[lane];
+    passed_ids_[passed_][paths.slot[i]] = group.id[lane];
     passing_[passing_count_++] = i;
   }
   ended |= simple & last;
@@ -191,7 +191,7 @@ Wave::VaryingSurfaces Wave::add_varying(std::size_t first, Lanes lanes) {
     kernels_->load_textured(surface, same, hits.lanes, group.width, textured_, group.surface,
                             group.normals);
     result.opaque |= textured_.opaque;
-    if (look.material->alpha_mode == AlphaMode::blend && layer_ < kMostPassed)
+    if (look.material->alpha_mode == AlphaMode::blend && passed_ < kMostPassed)
       result.passed |= same & ~textured_.covers;
     if (look[MaterialTexture::normal].map == nullptr) continue;
     for (Lanes mapped = textured_.opaque; mapped != 0; mapped &= mapped - 1) {
@@ -222,10 +222,10 @@ bool Wave::step_slowly(std::size_t first, int lane) {
                                        : tracer_.hit(ray, hits_[i]);
   ShadingPoint point = shading_->point(hits, lane, ray, *hit);
   prepare(i, point);
-  std::uint32_t layer = layer_;
+  std::uint32_t passed = passed_;
   bool is_nearest = true;
   left_bodies_.clear();
-  while (hit && (passes_hidden_surface(i, point) || !stops(i, point, layer))) {
+  while (hit && (passes_hidden_surface(i, point) || !stops(i, point, passed))) {
     hit = next(i, *hit, point);
     is_nearest = false;
   }
@@ -233,7 +233,7 @@ bool Wave::step_slowly(std::size_t first, int lane) {
   if (!hit) return false;
   if (looks_behind() && Shading::lets_light_in(point) &&
       (!is_nearest || !point.look->has_open_back || may_get_light(i))) {
-    const Behind behind = look_behind(i, *hit, point, layer, is_nearest);
+    const Behind behind = look_behind(i, *hit, point, passed, is_nearest);
     const NestedMedia* media = media_.at(paths.media[i]);
     // No light arrives from infinitely far away through a medium that scatters.
     if (behind.is_open) return media != nullptr && media->medium->scatters();

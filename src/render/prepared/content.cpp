@@ -42,9 +42,9 @@ const Surfaces& PreparedScene::Content::surfaces() const {
       [&] { return make<Surfaces>(*scene_, bvh().primitives(), finder, *tables_); });
 }
 
-const HiddenBacks& PreparedScene::Content::hidden_backs() const {
+const OneSidedTriangles& PreparedScene::Content::one_sided_triangles() const {
   const Primitives& primitives = bvh().primitives();
-  return hidden_backs_.get([&] { return make<HiddenBacks>(*scene_, primitives); });
+  return one_sided_triangles_.get([&] { return make<OneSidedTriangles>(*scene_, primitives); });
 }
 
 const Shading& PreparedScene::Content::shading() const {

@@ -5,7 +5,7 @@
 #include "base/memory_account.hpp"
 #include "render/guiding/sky_visibility.hpp"
 #include "render/lights/lighting.hpp"
-#include "render/prepared/hidden_backs.hpp"
+#include "render/prepared/one_sided_triangles.hpp"
 #include "render/prepared/recentered.hpp"
 #include "render/prepared/shared_tables.hpp"
 #include "render/shading/shading.hpp"
@@ -36,7 +36,7 @@ class PreparedScene::Content {
   [[nodiscard]] const Bvh& bvh() const;
   [[nodiscard]] const SurfaceFinder& surface_finder() const;
   [[nodiscard]] const Surfaces& surfaces() const;
-  [[nodiscard]] const HiddenBacks& hidden_backs() const;
+  [[nodiscard]] const OneSidedTriangles& one_sided_triangles() const;
   [[nodiscard]] const Shading& shading() const;
   [[nodiscard]] const Emitters& emitters() const;
   /// The scene's lighting. `in_place`, if present, replaces the scene's environment. A scene with
@@ -72,7 +72,7 @@ class PreparedScene::Content {
   Lazy<Bvh> bvh_;
   Lazy<SurfaceFinder> surface_finder_;
   Lazy<Surfaces> surfaces_;
-  Lazy<HiddenBacks> hidden_backs_;
+  Lazy<OneSidedTriangles> one_sided_triangles_;
   Lazy<Shading> shading_;
   Lazy<Emitters> emitters_;
   Lazy<SkyVisibility> sky_visibility_;

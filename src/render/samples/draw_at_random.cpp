@@ -61,10 +61,10 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
     SampleSums own;
     SampleSums& sums = passes.sums != nullptr ? *passes.sums : own;
     prepare(sums, drawing, film.whole, background);
-    run_passes(drawing, painters, passes.part.value_or(all), passes, sums);
+    run_passes(drawing, painters, passes.range.value_or(all), passes, sums);
     samples_per_pixel = sums.count();
-    // The channels of a part are those of the whole picture.
-    const bool is_part = passes.part.has_value();
+    // The channels of some of the samples are those of the whole picture.
+    const bool is_part = passes.range.has_value();
     const std::vector<SampleRange> taken = is_part ? std::vector{all} : sums.ranges();
     const auto finish = [&](const PixelRect& tile, const auto& /*poll*/) {
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {

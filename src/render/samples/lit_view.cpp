@@ -29,7 +29,7 @@ LitView::LitView(SceneView view, const RenderOptions& options)
       world_(view_.world(kSamplesOfRandomTextures)) {
   world_.seed = options.seed;
   world_.shading = &view_.content->shading();
-  world_.hidden_backs = world_.shading->triangles_with_open_backs();
+  world_.open_backs = world_.shading->triangles_with_open_backs();
   world_.lighting = &lighting_;
 }
 

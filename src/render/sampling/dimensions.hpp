@@ -16,10 +16,10 @@ inline constexpr std::uint32_t kDirectionPair = 0;    ///< outgoing direction
 inline constexpr std::uint32_t kLobePair = 1;         ///< choice of the lobe, and Russian roulette
 inline constexpr std::uint32_t kLightPair = 2;        ///< position on a light
 inline constexpr std::uint32_t kLightChoicePair = 3;  ///< selection of the light
-/// Decides if the path passes through a layer, according to the layer's alpha. Each further layer
-/// uses a pair kLayerPairs later.
+/// Decides if the path passes through a surface, according to the surface's alpha. Each further
+/// surface that the segment meets uses a pair kPassedPairs later.
 inline constexpr std::uint32_t kCoveragePair = 4;
-inline constexpr std::uint32_t kLayerPairs = 1U << 16U;
+inline constexpr std::uint32_t kPassedPairs = 1U << 16U;
 /// Distance and color channel of a flight through a scattering medium. Each further segment of a
 /// path uses the next pair. The direction after scattering has the direction pair of a vertex.
 inline constexpr std::uint32_t kFirstFlightPair = kShutterPair + 1;

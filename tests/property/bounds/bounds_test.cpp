@@ -4,7 +4,7 @@
 
 #include "accel/filters/shape_filter.hpp"
 #include "accel/spawn/box_clearance.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/numbers/vector.hpp"
 #include "support/reproduction.hpp"
 

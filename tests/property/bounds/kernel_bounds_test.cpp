@@ -7,7 +7,7 @@
 #include "accel/kernels/dispatch.hpp"
 #include "accel/resolve/hit_resolver.hpp"
 #include "accel/resolve/packet_resolver.hpp"
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "exact/numbers/vector.hpp"
 #include "support/reproduction.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "exact/grid.hpp"
 
+#include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
 #include "exact/triangle_hit.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/reproduction.hpp"

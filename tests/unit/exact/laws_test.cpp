@@ -1,6 +1,6 @@
 /// Checks laws that hold for all rays and shapes.
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "support/cases/adversarial_rays.hpp"
 #include "support/reproduction.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "render/shading/opacity_maps.hpp"
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 #include "render/prepared/shared_tables.hpp"
 #include "render/shading/shading.hpp"
 #include "render/shading/texture_slots.hpp"

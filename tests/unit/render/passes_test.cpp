@@ -74,7 +74,7 @@ TEST(Passes, PartsAddUpToTheWhole) {
   for (const SampleRange& part : {SampleRange{37, 50}, SampleRange{0, 11}, SampleRange{11, 30}}) {
     parts.emplace_back();
     (void)drawn({.samples = 50,
-                 .passes = Passes{.sums = &parts.back(), .part = part},
+                 .passes = Passes{.sums = &parts.back(), .range = part},
                  .transparent = true});
     EXPECT_EQ(parts.back().ranges(), std::vector<SampleRange>{part});
   }
@@ -148,8 +148,8 @@ TEST(Passes, RefuseInvalidOptions) {
   (void)drawn({.samples = 2, .passes = Passes{.sums = &other}, .crop = PixelRect{0, 0, 4, 4}});
   const std::vector<RenderOptions> bad = {
       {.samples = 4, .passes = Passes{.sums = &other}},
-      {.samples = 4, .passes = Passes{.part = SampleRange{2, 5}}},
-      {.samples = 4, .passes = Passes{.part = SampleRange{2, 2}}},
+      {.samples = 4, .passes = Passes{.range = SampleRange{2, 5}}},
+      {.samples = 4, .passes = Passes{.range = SampleRange{2, 2}}},
   };
   for (const RenderOptions& options : bad) EXPECT_THROW((void)drawn(options), Error);
   const FlatIntegrator flat;

@@ -130,7 +130,7 @@ TEST(Shutter, CropsThreadsPartsAndPassesGiveTheSameBits) {
   SampleSums sums;
   for (const SampleRange& range : {SampleRange{21, 40}, SampleRange{0, 21}}) {
     (void)drawn_open(
-        {.samples = 40, .passes = Passes{.sums = &sums, .part = range}, .shutter = shutter});
+        {.samples = 40, .passes = Passes{.sums = &sums, .range = range}, .shutter = shutter});
   }
   EXPECT_EQ(pixels_of(develop(sums, Film::Alpha::none)), pixels_of(whole));
 }

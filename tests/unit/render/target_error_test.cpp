@@ -167,7 +167,7 @@ TEST(TargetError, ThreadsAndInterruptionsHaveNoEffect) {
 TEST(TargetError, IsNotForShards) {
   EXPECT_THROW(
       (void)drawn_to_target(
-          {.samples = 4, .passes = Passes{.part = SampleRange{0, 2}, .target_error = 0.1}}),
+          {.samples = 4, .passes = Passes{.range = SampleRange{0, 2}, .target_error = 0.1}}),
       Error);
 }
 

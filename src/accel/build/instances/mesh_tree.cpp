@@ -80,7 +80,7 @@ bool Inverse::is_precise(const Placement& placement) const {
   return true;
 }
 
-float rounded_up(double x) {
+float float_above(double x) {
   return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
@@ -147,7 +147,7 @@ Instance build::make_instance(const Tree& of_mesh, const Placement& placement, c
     reach += 1.2 * rounding + 5 * kUnit * greatest(in_scene.lo, in_scene.hi, axis, t);
   }
   Instance instance = placed(placement);
-  instance.reach = rounded_up(reach * (1 + 0x1p-20));
+  instance.reach = float_above(reach * (1 + 0x1p-20));
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
       instance.mesh_from_scene[i][k] = static_cast<float>(inverse.rows[i][k]);

@@ -17,7 +17,7 @@ bool all_finite(Numbers... x) {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Returns the largest float32 strictly below x.
-float rounded_down(double x) {
+float float_below(double x) {
   if (x < -double{std::numeric_limits<float>::max()}) return -kInfinity;
   if (x > double{std::numeric_limits<float>::max()}) return std::numeric_limits<float>::max();
   const auto f = static_cast<float>(x);
@@ -30,8 +30,8 @@ Box extended(const Vec3& center, const DVec3& reach) {
   Box box;
   for (int k = 0; k < 3; ++k) {
     const double c = center[k], slack = 0x1p-48 * (std::abs(c) + reach[k]);
-    box.lo[k] = rounded_down(c - reach[k] - slack);
-    box.hi[k] = -rounded_down(-(c + reach[k] + slack));
+    box.lo[k] = float_below(c - reach[k] - slack);
+    box.hi[k] = -float_below(-(c + reach[k] + slack));
   }
   return box;
 }
@@ -68,8 +68,8 @@ Box box_of(const Disc& d) {
 Box around(const DVec3& point, const DVec3& size) {
   Box box;
   for (int k = 0; k < 3; ++k) {
-    box.lo[k] = rounded_down(point[k] - 0x1p-50 * size[k]);
-    box.hi[k] = -rounded_down(-(point[k] + 0x1p-50 * size[k]));
+    box.lo[k] = float_below(point[k] - 0x1p-50 * size[k]);
+    box.hi[k] = -float_below(-(point[k] + 0x1p-50 * size[k]));
   }
   return box;
 }

@@ -1,11 +1,11 @@
-#include "render/prepared/hidden_backs.hpp"
+#include "render/prepared/one_sided_triangles.hpp"
 
 #include <cstddef>
 #include <variant>
 
 namespace microtrace {
 
-HiddenBacks::HiddenBacks(const Scene& scene, const Primitives& primitives)
+OneSidedTriangles::OneSidedTriangles(const Scene& scene, const Primitives& primitives)
     : PrimitiveSet(primitives.count(), "the one-sided surfaces of the scene") {
   std::size_t run = 0;
   for (const ObjectRun& objects : scene.objects.runs()) {

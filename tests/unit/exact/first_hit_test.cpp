@@ -1,6 +1,6 @@
 /// Tests the rules of docs/exactness.md one by one, with numbers that are easy to check by hand.
 
-#include "exact/intersect.hpp"
+#include "exact/first_hit.hpp"
 
 #include "support/cases/counterexamples.hpp"
 

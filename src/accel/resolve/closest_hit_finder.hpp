@@ -12,7 +12,7 @@
 
 namespace microtrace {
 
-class ClosestHit {
+class ClosestHitFinder {
  public:
   /// Updates the nearest hit, given the filter's result for primitive `id`.
   void consider(PrimitiveId id, const FilterResult& filtered, const ExactHits& exactly) {

@@ -7,9 +7,9 @@
 namespace microtrace {
 
 /// The triangles of one-sided meshes, whose backs have no coverage in World::base_color.
-class HiddenBacks : public PrimitiveSet {
+class OneSidedTriangles : public PrimitiveSet {
  public:
-  HiddenBacks(const Scene& scene, const Primitives& primitives);
+  OneSidedTriangles(const Scene& scene, const Primitives& primitives);
 };
 
 }  // namespace microtrace

@@ -1,4 +1,4 @@
-#include "accel/spawn/fast_spawn.hpp"
+#include "accel/spawn/shape_spawn.hpp"
 
 #include "accel/spawn/box_clearance.hpp"
 #include "accel/spawn/origin_search.hpp"
@@ -22,19 +22,19 @@ bool is_filterable(const Ray& ray) {
 
 }  // namespace
 
-FastSpawn::FastSpawn(const Plane& s, const Ray& ray) {
+ShapeSpawn::ShapeSpawn(const Plane& s, const Ray& ray) {
   if (microtrace::is_filterable(s)) {
     set_flat({.a = s.point, .normal = CrossProduct(DVec3(s.normal))}, ray);
   }
 }
-FastSpawn::FastSpawn(const Disc& s, const Ray& ray) {
+ShapeSpawn::ShapeSpawn(const Disc& s, const Ray& ray) {
   if (microtrace::is_filterable(s)) {
     set_flat({.a = s.center, .normal = CrossProduct(DVec3(s.normal))}, ray);
   }
 }
-FastSpawn::FastSpawn(const Quadric&, const Ray&) {}
+ShapeSpawn::ShapeSpawn(const Quadric&, const Ray&) {}
 
-FastSpawn::FastSpawn(const Sphere& s, const Ray& ray) {
+ShapeSpawn::ShapeSpawn(const Sphere& s, const Ray& ray) {
   if (!microtrace::is_filterable(s) || !is_filterable(ray)) return;
   const FilterResult t =
       seen_from(ray.o, s)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
@@ -61,14 +61,14 @@ FastSpawn::FastSpawn(const Sphere& s, const Ray& ray) {
     set_reach(kBallSteps);
 }
 
-void FastSpawn::set_reach(int steps) {
+void ShapeSpawn::set_reach(int steps) {
   for (int k = 0; k < 3; ++k) {
     const double unit = spacing((*p_)[k]);
     reach_[k] = k == axis_ ? reach_of(steps, unit) : unit / 2;
   }
 }
 
-void FastSpawn::set_flat(const Flat& flat, const Ray& ray) {
+void ShapeSpawn::set_flat(const Flat& flat, const Ray& ray) {
   if (!is_filterable(ray)) return;
   const DVec3 from_a = DVec3(flat.a) - DVec3(ray.o);
   // As in TrianglePlaneFilter. The normal is exact, so half of this bound would suffice.
@@ -95,19 +95,19 @@ void FastSpawn::set_flat(const Flat& flat, const Ray& ray) {
     set_reach(kFlatSteps);
 }
 
-std::optional<AxisPlane> FastSpawn::axis_plane() const {
+std::optional<AxisPlane> ShapeSpawn::axis_plane() const {
   const auto* flat = std::get_if<Flat>(&surface_);
   return flat == nullptr ? std::nullopt : AxisPlane::of(flat->a, flat->normal.permanent);
 }
 
-std::optional<Vec3> FastSpawn::origin(const Vec3& direction) const {
+std::optional<Vec3> ShapeSpawn::origin(const Vec3& direction) const {
   if (!microtrace::is_filterable(direction)) return std::nullopt;
   if (const auto* flat = std::get_if<Flat>(&surface_)) return origin(*flat, direction);
   if (const auto* ball = std::get_if<Ball>(&surface_)) return origin(*ball, direction);
   return std::nullopt;
 }
 
-std::optional<Vec3> FastSpawn::origin(const Flat& flat, const Vec3& direction) const {
+std::optional<Vec3> ShapeSpawn::origin(const Flat& flat, const Vec3& direction) const {
   const Approximate slope = flat.normal.along(DVec3(direction));
   if (!slope.is_positive() && !slope.is_negative()) return std::nullopt;
   const int side = slope.is_positive() ? 1 : -1;
@@ -125,7 +125,7 @@ std::optional<Vec3> FastSpawn::origin(const Flat& flat, const Vec3& direction) c
   return std::nullopt;
 }
 
-std::optional<Vec3> FastSpawn::origin(const Ball& ball, const Vec3& direction) const {
+std::optional<Vec3> ShapeSpawn::origin(const Ball& ball, const Vec3& direction) const {
   const DVec3 w(direction), size = glm::abs(w);
   // The product and the sums have three roundings, so half of gamma(6) would suffice.
   const Approximate slope{.value = glm::dot(ball.from_center, w),

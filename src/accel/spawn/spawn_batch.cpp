@@ -1,7 +1,7 @@
 #include "accel/build/wide/wide_tree.hpp"
 #include "accel/spawn/box_clearance.hpp"
-#include "accel/spawn/fast_spawn.hpp"
 #include "accel/spawn/origin_search.hpp"
+#include "accel/spawn/shape_spawn.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -31,7 +31,7 @@ Ray ray_of(const HitPointLanes& lanes, std::size_t lane) {
           .t_max = lanes.t_max[lane]};
 }
 
-void FastSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
+void SpawnBatch::put(const Triangle& t, const Ray& ray, std::size_t lane) {
   put_vector(points_->a, lane, t.a);
   put_vector(points_->b, lane, t.b);
   put_vector(points_->c, lane, t.c);
@@ -41,9 +41,9 @@ void FastSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
   points_->t_max[lane] = ray.t_max;
 }
 
-void FastSpawns::add(PrimitiveId id, const Ray& ray) {
+void SpawnBatch::add(PrimitiveId id, const Ray& ray) {
   queries_.omitted_id[hits_] = id;
-  std::optional<FastSpawn>& other = others_[hits_];
+  std::optional<ShapeSpawn>& other = others_[hits_];
   other.reset();
   if (id < primitives_.count()) {
     primitives_.visit(id, [&]<class AnyShape>(const AnyShape& shape) {
@@ -58,7 +58,7 @@ void FastSpawns::add(PrimitiveId id, const Ray& ray) {
   ++hits_;
 }
 
-void FastSpawns::set_queries() {
+void SpawnBatch::set_queries() {
   for (int k = 0; k < 3; ++k) {
     std::memcpy(queries_.lo[k], points_->lo[k], sizeof(SpawnFloats));
     std::memcpy(queries_.hi[k], points_->hi[k], sizeof(SpawnFloats));
@@ -70,9 +70,9 @@ void FastSpawns::set_queries() {
   known_ &= triangles_;
 }
 
-void FastSpawns::set_query(std::size_t hit) {
+void SpawnBatch::set_query(std::size_t hit) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const std::optional<FastSpawn>& surface = others_[hit];
+  const std::optional<ShapeSpawn>& surface = others_[hit];
   queries_.plane_axis[hit] = -1;
   if (!surface || !surface->point()) {  // an empty box, which finds nothing
     for (int k = 0; k < 3; ++k) queries_.lo[k][hit] = kInfinity, queries_.hi[k][hit] = -kInfinity;
@@ -91,13 +91,13 @@ void FastSpawns::set_query(std::size_t hit) {
   }
 }
 
-FastSpawns::Place FastSpawns::place(std::size_t hit) const {
+SpawnBatch::Place SpawnBatch::place(std::size_t hit) const {
   if ((triangles_ >> hit & 1U) != 0)
     return {.p = DVec3(vector_of(points_->p, hit)), .reach = vector_of(points_->reach, hit)};
   return {.p = DVec3(*others_[hit]->point()), .reach = others_[hit]->reach()};
 }
 
-bool FastSpawns::is_alone(std::size_t hit) const {
+bool SpawnBatch::is_alone(std::size_t hit) const {
   const int count = queries_.count[hit];
   if (count < 0) return false;
   const Place at = place(hit);
@@ -120,17 +120,17 @@ bool FastSpawns::is_alone(std::size_t hit) const {
                       at.reach);
   };
   return std::all_of(slots, slots + count, is_passed) &&
-         std::all_of(outside_.begin(), outside_.end(), is_primitive_passed);
+         std::all_of(unbounded_.begin(), unbounded_.end(), is_primitive_passed);
 }
 
-Lanes FastSpawns::crowded() const {
+Lanes SpawnBatch::crowded() const {
   Lanes lanes = 0;
   for (std::size_t hit = 0; hit < kHits; ++hit)
     lanes |= Lanes{queries_.count[hit] != 0 ? 1U : 0U} << hit;
   return lanes;
 }
 
-void FastSpawns::find_points() {
+void SpawnBatch::find_points() {
   known_ = 0;
   if (triangles_ != 0) {
     spawn_kernels_.find_hit_points(*points_);
@@ -145,12 +145,12 @@ void FastSpawns::find_points() {
   else
     std::ranges::fill(queries_.count, 0);
   alone_ = known_;
-  for (Lanes rest = outside_.empty() ? known_ & crowded() : known_; rest != 0; rest &= rest - 1) {
+  for (Lanes rest = unbounded_.empty() ? known_ & crowded() : known_; rest != 0; rest &= rest - 1) {
     if (!is_alone(static_cast<std::size_t>(std::countr_zero(rest)))) alone_ &= ~(rest & -rest);
   }
 }
 
-void FastSpawns::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes,
+void SpawnBatch::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes,
                           HitPointLanes& points) {
   points_ = &points;
   triangles_ = on_meshes;
@@ -164,7 +164,7 @@ void FastSpawns::set_hits(std::span<const PrimitiveId> ids, Lanes on_meshes,
   find_points();
 }
 
-Lanes FastSpawns::leave(Lanes wanted, OriginLanes& lanes) const {
+Lanes SpawnBatch::leave(Lanes wanted, OriginLanes& lanes) const {
   const Lanes open = wanted & alone_;
   Lanes found = open & triangles_;
   if (found != 0) found = spawn_kernels_.find_origins(*points_, lanes, found);
@@ -178,7 +178,7 @@ Lanes FastSpawns::leave(Lanes wanted, OriginLanes& lanes) const {
   return found;
 }
 
-std::size_t FastSpawns::origins(std::span<const Bvh::Spawn> spawns,
+std::size_t SpawnBatch::origins(std::span<const Bvh::Spawn> spawns,
                                 std::span<std::optional<Vec3>> origins) {
   points_ = &own_points_;
   hits_ = 0;

@@ -55,7 +55,7 @@ void Wave::find_visible() {
   rays.t_min = open_t_min_;
   const auto visible = std::span(open_blockers_).first(count);
   const MaskedTriangles masked{.triangles = shading_->masked(), .context = this, .passes = passes};
-  tracer_.closest(rays, {.open = tracer_.open_backs(world_->hidden_backs), .masked = masked},
+  tracer_.closest(rays, {.open = tracer_.open_backs(world_->open_backs), .masked = masked},
                   visible);
   for (std::size_t k = 0; k < count; ++k) set_camera_hit(open_paths_[k], visible[k]);
 }
@@ -84,7 +84,7 @@ void Wave::find_blocked() {
 
 bool Wave::has_passed(std::size_t i, PrimitiveId id) const {
   const std::uint32_t slot = paths_->slot[i];
-  return std::any_of(passed_ids_.begin(), passed_ids_.begin() + layer_,
+  return std::any_of(passed_ids_.begin(), passed_ids_.begin() + passed_,
                      [&](const auto& ids) { return ids[slot] == id; });
 }
 
@@ -105,7 +105,7 @@ HitFilter Wave::passed() const {
            (wave.step_.depth == 1 ? wave.is_transparent_to_camera(i, ray, id)
                                   : wave.shading_->is_transparent(ray, id));
   };
-  return {.open = step_.depth == 1 ? tracer_.open_backs(world_->hidden_backs) : OpenSide{},
+  return {.open = step_.depth == 1 ? tracer_.open_backs(world_->open_backs) : OpenSide{},
           .masked = {
               .triangles = shading_->masked(), .context = this, .known = known, .passes = passes}};
 }
@@ -113,7 +113,7 @@ HitFilter Wave::passed() const {
 bool Wave::pass_blended() {
   if (passing_count_ == 0) return false;
   count_ = std::exchange(passing_count_, 0);
-  ++layer_;
+  ++passed_;
   paths_->keep(std::span(passing_).first(count_));
   const RayTimer timer(counts_.path, count_);
   const bool from_camera = step_.depth == 1;
@@ -136,20 +136,20 @@ void Wave::set_least_alpha(std::size_t first, const TexturedMaterial& look, floa
     std::ranges::fill(textured_.least_alpha, covering_alpha);
     return;
   }
-  kernels_->random_numbers(paths_->key + first, paths_->index + first, coverage_pair(layer_),
+  kernels_->random_numbers(paths_->key + first, paths_->index + first, coverage_pair(passed_),
                            textured_.least_alpha);
   // stops() is true for alphas greater than the random number, so the next number is the least one.
   for (float& u : textured_.least_alpha)
     u = std::bit_cast<float>(std::bit_cast<std::uint32_t>(u) + 1);
 }
 
-bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t& layer) const {
+bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t& passed) const {
   const bool from_camera = paths_->pdf[i] == 0;
   if (!from_camera && point.look->is_opaque) return true;
   const float coverage = shading_->coverage(from_camera ? point : point.unfiltered(), from_camera);
   if (coverage == 0 || coverage == 1) return coverage == 1;
-  if (paths_->sobol(i).one(coverage_pair(layer)) < coverage) return true;
-  ++layer;
+  if (paths_->sobol(i).one(coverage_pair(passed)) < coverage) return true;
+  ++passed;
   return false;
 }
 
@@ -164,7 +164,7 @@ std::optional<Hit> Wave::next(std::size_t i, const Hit& hit, ShadingPoint& point
 }
 
 Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint point,
-                               std::uint32_t layer, bool is_nearest) {
+                               std::uint32_t passed, bool is_nearest) {
   const auto is_sky_lit = [&] {
     return lighting_->environment(unit<1>(vector_of(paths_->d, i))) != Vec3(0);
   };
@@ -172,11 +172,11 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
     return {.is_open = is_sky_lit()};
   std::optional<Hit> hit = first;
   while (Shading::lets_light_in(point)) {
-    ++layer;
+    ++passed;
     do {
       hit = next(i, *hit, point);
       if (!hit) return {.is_open = is_sky_lit()};
-    } while (!stops(i, point, layer));
+    } while (!stops(i, point, passed));
   }
   if (!point.look->is_emissive() || emission(i, point) == Vec3(0)) return {};
   return {.hit = hit, .point = point};

@@ -24,14 +24,14 @@ namespace microtrace {
 
 /// The point where a ray hits a non-triangle surface, and the origins of rays that leave this
 /// point. The results equal those of spawn_among.
-class FastSpawn {
+class ShapeSpawn {
  public:
   /// `ray` must hit the surface.
-  FastSpawn(const Plane& surface, const Ray& ray);
-  FastSpawn(const Disc& surface, const Ray& ray);
-  FastSpawn(const Sphere& surface, const Ray& ray);
+  ShapeSpawn(const Plane& surface, const Ray& ray);
+  ShapeSpawn(const Disc& surface, const Ray& ray);
+  ShapeSpawn(const Sphere& surface, const Ray& ray);
   /// Not implemented for quadrics, for which point() returns nothing.
-  FastSpawn(const Quadric& surface, const Ray& ray);
+  ShapeSpawn(const Quadric& surface, const Ray& ray);
 
   /// Returns the rounded hit point, or nothing if float64 is too imprecise to determine it.
   [[nodiscard]] const std::optional<Vec3>& point() const { return p_; }
@@ -70,15 +70,15 @@ class FastSpawn {
 [[nodiscard]] Ray ray_of(const HitPointLanes& lanes, std::size_t lane);
 
 /// Computes the origins of rays that leave several hits at a time.
-class FastSpawns {
+class SpawnBatch {
  public:
-  /// `outside` lists the primitives that are not in the tree. `tree` must be empty if the tree has
-  /// no leaves.
-  FastSpawns(const Primitives& primitives, std::span<const PrimitiveId> outside,
+  /// `unbounded` lists the primitives that are not in the tree. `tree` must be empty if the tree
+  /// has no leaves.
+  SpawnBatch(const Primitives& primitives, std::span<const PrimitiveId> unbounded,
              const Kernels& kernels, const SpawnKernels& spawn_kernels,
              const std::optional<TreeView>& tree)
       : primitives_(primitives),
-        outside_(outside),
+        unbounded_(unbounded),
         kernels_(kernels),
         spawn_kernels_(spawn_kernels),
         tree_(tree) {}
@@ -106,7 +106,7 @@ class FastSpawns {
   void set_queries();
   /// Sets the query of a hit on another surface.
   void set_query(std::size_t hit);
-  /// The hit point, and the reach of FastSpawn or HitPointLanes.
+  /// The hit point, and the reach of ShapeSpawn or HitPointLanes.
   struct Place {
     DVec3 p, reach;
   };
@@ -118,7 +118,7 @@ class FastSpawns {
   [[nodiscard]] Lanes crowded() const;
 
   const Primitives& primitives_;
-  std::span<const PrimitiveId> outside_;
+  std::span<const PrimitiveId> unbounded_;
   const Kernels& kernels_;
   const SpawnKernels& spawn_kernels_;
   const std::optional<TreeView> tree_;
@@ -126,8 +126,8 @@ class FastSpawns {
   Lanes triangles_ = 0;  // hits on triangles, which are in points_
   Lanes known_ = 0;      // hits whose points float64 can determine
   Lanes alone_ = 0;      // hits near which certainly no other surface obstructs rays
-  std::array<std::optional<FastSpawn>, kHits> others_;  // hits on other surfaces
-  std::array<std::size_t, kHits + 1> first_spawn_;      // index of each hit's first spawn
+  std::array<std::optional<ShapeSpawn>, kHits> others_;  // hits on other surfaces
+  std::array<std::size_t, kHits + 1> first_spawn_;       // index of each hit's first spawn
   BoxQueries queries_;  // omitted_id: the primitives that the rays leave
   HitPointLanes* points_ = nullptr;
   HitPointLanes own_points_{};
