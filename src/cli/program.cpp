@@ -24,10 +24,12 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <fcntl.h>
 #include <new>
 #include <string>
 #include <string_view>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace microtrace {
 namespace {
@@ -61,10 +63,18 @@ bool traces_rays(cli::Command command, const cli::Arguments& arguments) {
   return command != cli::Command::merge && command != cli::Command::compare;
 }
 
+/// Writes to the part of the stack that rays need. If the address space is limited (ulimit -v), the
+/// stack could no longer grow after scenes have taken the rest.
+void reach_stack() {
+  std::array<char, kStackSize / 2> part;
+  volatile char* const begin = part.data();
+  for (std::size_t at = 0; at < part.size(); at += 4096) begin[at] = 0;
+}
+
 /// Throws Error (limit) if rays may overflow the stack of the main thread.
 void require_stack() {
   rlimit stack{};
-  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kStackSize) return;
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kStackSize) return reach_stack();
   const rlim_t better = std::min(8 * kStackSize, stack.rlim_max);  // which needs no privilege
   throw Error(ErrorKind::limit, "",
               "stacks are limited to " + std::to_string(stack.rlim_cur >> 10U) +
@@ -72,6 +82,15 @@ void require_stack() {
                   (better < kStackSize
                        ? "the hard limit must be raised, which needs privileges"
                        : "raise the limit, as by ulimit -s " + std::to_string(better >> 10U)));
+}
+
+/// Opens those of the descriptors 0 to 2 that are closed, for the opposite of their use, so that
+/// they still can't be used. Otherwise, the next file would get such a number, and output with it.
+void reserve_standard_descriptors() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(number, F_GETFD) < 0)
+      static_cast<void>(::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+  }
 }
 
 /// Applies the options that end a run early.
@@ -121,6 +140,7 @@ int run_command(const NamedCommand& named, int argc, char** argv) {
 
 int cli::run_program(int argc, char** argv) {
   const FloatEnvironment environment;
+  reserve_standard_descriptors();
   cli::handle_signals();
   if (cli::is_completion(argc, argv)) {
     return exit_code_of([&] {

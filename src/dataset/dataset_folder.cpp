@@ -1,3 +1,4 @@
+#include "base/system/error_text.hpp"
 #include "base/text/printable.hpp"
 #include "dataset/dataset_json.hpp"
 #include "dataset/manifest_reader.hpp"
@@ -72,7 +73,8 @@ std::optional<std::string> difference(const DatasetIdentity& a, const DatasetIde
 }
 
 [[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
-  throw Error(ErrorKind::io, path.string(), "can't be created: " + error.message(), error.value());
+  throw Error(ErrorKind::io, path.string(), "can't be created: " + error_text(error.value()),
+              error.value());
 }
 
 void create_folder(const fs::path& path) {

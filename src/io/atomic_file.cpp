@@ -1,6 +1,8 @@
 #include "io/atomic_file.hpp"
 
+#include "base/system/error_text.hpp"
 #include "io/file.hpp"
+#include "io/file_access.hpp"
 #include "io/unfinished_files.hpp"
 
 #include <microtrace/error.hpp>
@@ -9,7 +11,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <fcntl.h>
 #include <optional>
 #include <poll.h>
@@ -26,12 +27,12 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail_to_write(const fs::path& named, int error, std::string_view remedy) {
-  std::string message = "can't be written: ";
-  message += std::strerror(error);
-  message += "; ";
+  std::string message = "can't be written: " + error_text(error) + "; ";
   message += remedy;
   throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message, error);
 }
+
+constexpr std::string_view kOpenForWriting = "open that descriptor for writing";
 
 /// Returns the remedy if writing or closing a file fails with this error.
 std::string_view remedy_of(int error) {
@@ -39,7 +40,7 @@ std::string_view remedy_of(int error) {
     case EPIPE:
       return "the program that reads the pipe has ended";
     case EBADF:
-      return "open that descriptor for writing";
+      return kOpenForWriting;
     case EFBIG:
       return "raise the limit on the size of files (ulimit -f), or name a file on another file "
              "system";
@@ -79,18 +80,34 @@ bool is_stream_resolved(const fs::path& target) {
                                        !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
 }
 
-/// Checks that the target can be replaced. Returns the permissions of the existing file, if there
-/// is one.
-std::optional<mode_t> check_resolved(const fs::path& named, const fs::path& target) {
+/// Checks that a stream can be written to.
+void check_stream(const fs::path& named, const fs::path& target) {
+  if (const std::optional<int> number = descriptor_number(target)) {
+    const int flags = ::fcntl(*number, F_GETFL);
+    if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY) fail_to_write(named, EBADF, kOpenForWriting);
+    return;
+  }
+  struct stat status {};
+  if (::stat(target.c_str(), &status) == 0 && S_ISSOCK(status.st_mode))
+    fail_to_write(named, ENXIO, "name a file");
+  if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+    fail_to_write(named, errno, "allow writing to it, or name another file");
+}
+
+/// Checks that the target can be replaced. Returns the status of the existing file, if there is
+/// one.
+std::optional<struct stat> check_resolved(const fs::path& named, const fs::path& target) {
   if (!target.has_filename()) fail_to_write(named, EISDIR, "name a file");
   struct stat status {};
-  std::optional<mode_t> mode;
+  std::optional<struct stat> existing;
   if (::stat(target.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) fail_to_write(named, EISDIR, "name a file in that folder");
     if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) {
       fail_to_write(named, errno, "allow writing to it, or name another file");
     }
-    mode = status.st_mode & 0777;
+    if (!may_replace(folder_of(target), status))
+      fail_to_write(named, EPERM, "another user owns the file, so name another file");
+    existing = status;
   } else if (errno != ENOENT) {
     fail_to_write(named, errno, "name another file");
   }
@@ -99,7 +116,7 @@ std::optional<mode_t> check_resolved(const fs::path& named, const fs::path& targ
                   errno == ENOENT ? "create its folder first"
                                   : "name a file in a folder that may be written to");
   }
-  return mode;
+  return existing;
 }
 
 }  // namespace
@@ -117,7 +134,7 @@ fs::path follow_links(fs::path path) {
 AtomicFile::AtomicFile(const fs::path& target) : named_(target), target_(follow_links(target)) {
   if (const std::optional<int> number = descriptor_number(target_)) {
     descriptor_ = ::fcntl(*number, F_DUPFD_CLOEXEC, 0);
-    if (descriptor_ < 0) fail(errno, "open that descriptor for writing");
+    if (descriptor_ < 0) fail(errno, kOpenForWriting);
   } else if (is_stream_resolved(target_)) {
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
     if (descriptor_ < 0) fail(errno, "name a file");
@@ -145,7 +162,7 @@ void AtomicFile::fail(int error, std::string_view remedy) {
 }
 
 void AtomicFile::open_temporary() {
-  const std::optional<mode_t> mode = check_resolved(named_, target_);
+  const std::optional<struct stat> existing = check_resolved(named_, target_);
   do {
     forget_unfinished_file(slot_);
     temporary_ = folder_of(target_) / random_name();
@@ -160,8 +177,7 @@ void AtomicFile::open_temporary() {
                       "file"
                     : "name a file in a folder that may be written to");
   }
-  // Ignores failure, because some file systems don't support permissions.
-  if (mode) static_cast<void>(::fchmod(descriptor_, *mode));
+  if (existing) copy_access(target_, *existing, descriptor_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -238,7 +254,10 @@ void AtomicFile::commit() {
 
 void check_target(const fs::path& target) {
   const fs::path resolved = follow_links(target);
-  if (!is_stream_resolved(resolved)) check_resolved(target, resolved);
+  if (is_stream_resolved(resolved))
+    check_stream(target, resolved);
+  else
+    static_cast<void>(check_resolved(target, resolved));
 }
 
 bool is_stream(const fs::path& target) {

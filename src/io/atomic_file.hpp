@@ -12,7 +12,8 @@ namespace microtrace::io {
 
 /// An output file that is being written. It is a temporary file in the target's folder until
 /// commit() renames it. The destructor removes an uncommitted file. If the target is a symbolic
-/// link, the file that it leads to is replaced and keeps its permissions. Devices, pipes, "-" and
+/// link, the file that it leads to is replaced. The new file gets the access rights of the old one
+/// (see copy_access). Devices, pipes, "-" and
 /// the names of open descriptors (/dev/stdout, /dev/fd/N) can't be replaced and are written
 /// directly. All members except the destructor throw Error(io) with the path and the system's
 /// reason.

@@ -1,13 +1,18 @@
 #include "io/confined_reads.hpp"
 
+#include "base/system/error_text.hpp"
 #include "base/text/printable.hpp"
 
 #include <microtrace/error.hpp>
 
 #include <algorithm>
+#include <fcntl.h>
+#include <linux/openat2.h>
 #include <string>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace microtrace::io {
@@ -15,6 +20,46 @@ namespace {
 
 /// The innermost ConfinedReads of this thread, or null.
 thread_local const ConfinedReads* confinement = nullptr;
+
+/// Closes a descriptor that may be invalid.
+class Opened {
+ public:
+  explicit Opened(int number) : number_(number) {}
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  ~Opened() {
+    if (number_ >= 0) ::close(number_);
+  }
+  [[nodiscard]] int number() const { return number_; }
+
+  /// True if both are the same file.
+  [[nodiscard]] bool equals(int descriptor) const {
+    struct stat a {};
+    struct stat b {};
+    return ::fstat(number_, &a) == 0 && ::fstat(descriptor, &b) == 0 && a.st_dev == b.st_dev &&
+           a.st_ino == b.st_ino;
+  }
+
+ private:
+  int number_;
+};
+
+/// Returns true if the open file lies in one of the folders by a relative path, which needs no
+/// access to the folders above them. Links may not lead out of the folder.
+bool is_beneath(const std::vector<std::filesystem::path>& folders,
+                const std::filesystem::path& path, int descriptor) {
+  return std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
+    const std::filesystem::path relative = path.lexically_relative(folder);
+    if (relative.empty()) return false;
+    const Opened base(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    open_how how{};
+    how.flags = O_PATH | O_CLOEXEC;
+    how.resolve = RESOLVE_BENEATH;
+    const Opened again(static_cast<int>(
+        ::syscall(SYS_openat2, base.number(), relative.c_str(), &how, sizeof how)));
+    return again.equals(descriptor);
+  });
+}
 
 }  // namespace
 
@@ -47,18 +92,18 @@ void ConfinedReads::require(const std::filesystem::path& path, std::optional<int
   std::error_code code;
   const std::filesystem::path real = std::filesystem::canonical(path, code);
   if (code && !descriptor) return;  // the attempt to open the file will report the reason
-  if (!code && !lies_within(confinement->folders_, real)) {
+  if (code && !is_beneath(confinement->folders_, path, *descriptor))
+    throw Error(ErrorKind::io, path.string(),
+                "can't be compared with the scene's folder: " + error_text(code.value()));
+  if (code) return;
+  if (!lies_within(confinement->folders_, real)) {
     throw Error(ErrorKind::invalid_scene, path.string(),
                 "is a link out of the scene's folder, to " + in_quotes(real.string()) +
                     "; allow the folder of that file (--allow-path)");
   }
   if (!descriptor) return;
-  struct stat opened {};
-  struct stat checked {};
-  const bool is_same = !code && ::fstat(*descriptor, &opened) == 0 &&
-                       ::stat(real.c_str(), &checked) == 0 && opened.st_dev == checked.st_dev &&
-                       opened.st_ino == checked.st_ino;
-  if (!is_same)
+  const Opened checked(::open(real.c_str(), O_PATH | O_CLOEXEC));
+  if (!checked.equals(*descriptor))
     throw Error(ErrorKind::io, path.string(), "was replaced while it was opened; try again");
 }
 

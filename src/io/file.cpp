@@ -1,6 +1,7 @@
 #include "io/file.hpp"
 
 #include "base/memory_account.hpp"
+#include "base/system/error_text.hpp"
 #include "io/confined_reads.hpp"
 
 #include <microtrace/digest.hpp>
@@ -40,7 +41,7 @@ FileState state_of(const struct stat& status) {
 constexpr std::size_t kChunk = std::size_t{64} * 1024;
 
 [[noreturn]] void fail(const std::string& name, std::string what, int code) {
-  what.append(": ").append(std::generic_category().message(code));
+  what.append(": ").append(error_text(code));
   throw Error(ErrorKind::io, name, std::move(what), code);
 }
 

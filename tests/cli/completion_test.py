@@ -56,6 +56,16 @@ class Completion(ProgramTest):
         self.assertEqual(self.complete_in_bash("microtrace", "--size", ""), set())
         self.assertEqual(self.complete_in_bash("microtrace", "--env", "s") & {"studio"}, {"studio"})
 
+    def test_lists_in_bash(self):
+        for words in (["--aov", "depth,nor"], ["--aov", "=", "depth,nor"]):
+            self.assertEqual(self.complete_in_bash("microtrace", *words), {"depth,normal"})
+        self.assertEqual(self.complete_in_bash("microtrace", "--aov=uv,depth,nor"), {"--aov=uv,depth,normal"})
+        self.assertEqual(self.complete_in_bash("microtrace", "dataset", "--formats", "png,co"), {"png,coco"})
+
+    def test_automatic_exposure_is_offered_where_it_is_accepted(self):
+        for command, values in [([], {"auto"}), (["view"], {"auto"}), (["compare"], set()), (["merge"], set()), (["dataset"], set())]:
+            self.assertEqual(self.complete_in_bash("microtrace", *command, "--exposure", ""), values)
+
     def test_values_after_an_equals_sign_in_bash(self):
         for name in ("notes.txt", "scene.json"):
             (self.folder / name).write_text("")
@@ -96,6 +106,8 @@ class Completion(ProgramTest):
         self.assertEqual(complete("microtrace --tonemap a"), {"aces", "agx"})
         self.assertEqual(complete("microtrace --tonemap=a"), {"--tonemap=aces", "--tonemap=agx"})
         self.assertEqual(complete("microtrace --stats="), {"--stats=text", "--stats=json"})
+        self.assertEqual(complete("microtrace --aov depth,nor"), {"depth,normal"})
+        self.assertEqual(complete("microtrace dataset --formats=png,co"), {"--formats=png,coco"})
         self.assertNotIn("json", complete("microtrace --stats "))
         self.assertEqual(complete("microtrace a.json -o verify --redr"), set())
         self.assertEqual(complete("microtrace completion "), {"bash", "zsh", "fish"})

@@ -4,12 +4,15 @@
 usage: ends_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
 
+import fcntl
 import json
 import os
 import pty
 import signal
+import struct
 import subprocess
 import sys
+import termios
 import time
 import unittest
 from pathlib import Path
@@ -38,8 +41,10 @@ class Ends(ProgramTest):
 
     # Messages
 
-    def test_messages_replace_the_progress_bar(self):
+    def draw_in_terminal(self, columns):
+        """Renders three pictures in a terminal. Returns what is written to it."""
         terminal, other_end = pty.openpty()
+        fcntl.ioctl(other_end, termios.TIOCSWINSZ, struct.pack("4H", 25, columns, 0, 0))
         command = [PROGRAM, SOURCE / "scenes/gltf/moving.glb", "--frames", "0:2", "--size", "200x150", "--spp", "400", "-o", "%d.ppm", "-t", "1"]
         with subprocess.Popen(command, cwd=self.folder, stderr=other_end, env=environment(TERM="xterm")) as process:
             os.close(other_end)
@@ -51,6 +56,17 @@ class Ends(ProgramTest):
                     break
         os.close(terminal)
         self.assertEqual(process.returncode, 0)
+        return text
+
+    def test_lines_of_the_progress_bar_fit_into_the_terminal(self):
+        for columns in (80, 40, 20, 5):
+            drawn = [part.split(b"\x1b")[0] for part in self.draw_in_terminal(columns).split(b"\r") if b"\x1b[K" in part]
+            self.assertGreater(len(drawn), 2)
+            self.assertLess(max(map(len, drawn)), columns)
+            self.assertEqual(any(b"[" in line for line in drawn), columns >= 40, drawn[:3])
+
+    def test_messages_replace_the_progress_bar(self):
+        text = self.draw_in_terminal(80)
         self.assertIn(b"picture 2 of 3", text)
         self.assertEqual(text.count(b"wrote "), 3)
         for line in text.split(b"\r"):

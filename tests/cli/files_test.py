@@ -7,13 +7,15 @@ usage: files_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 import json
 import os
 import shutil
+import socket
 import struct
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from program import ProgramTest
+from program import PROGRAM, ProgramTest, environment
 
 SOURCE = Path(sys.argv[2]).resolve()
 
@@ -102,6 +104,40 @@ class Files(ProgramTest):
         (self.folder / "scene.json").write_text(json.dumps(scene))
         for path in ["scene.json", "asset/model.gltf", "asset/data.bin"]:
             self.assert_refused(2, "scene.json", "-o", "a.ppm", "--sidecar", path, says=[path, "--sidecar"])
+
+    def test_outputs_that_cannot_be_written_are_refused_before_rendering(self):
+        with socket.socket(socket.AF_UNIX) as listener:
+            listener.bind(str(self.folder / "socket"))
+        long = [SOURCE / "scenes/perspective1.json", "--size", "8000x8000", "--spp", "65536", "--integrator", "path", "-o"]
+        with open("/dev/null") as unwritable:
+            for name, options in [("socket", {}), ("-", {"stdout": unwritable}), ("-", {"preexec_fn": lambda: os.close(1)})]:
+                result = subprocess.run([PROGRAM, *map(str, long), name], cwd=self.folder, stderr=subprocess.PIPE, env=environment(),
+                                        timeout=60, **options)
+                self.assertEqual(result.returncode, 5, result.stderr)
+                self.assertIn(b"can't be written", result.stderr)
+
+    def test_replaced_files_keep_their_access_rights(self):
+        scene, picture = SOURCE / "scenes/perspective1.json", self.folder / "a.ppm"
+        self.assertEqual(self.run_program(scene, "-o", picture).returncode, 0)
+        picture.chmod(0o604)
+        if os.getuid() == 0:
+            os.chown(picture, 1234, 2345)
+        # Version 2; entries are tag, permissions and id: the owner, user 3456, the group, the mask and others.
+        entries = [(1, 6, -1), (2, 6, 3456), (4, 0, -1), (16, 6, -1), (32, 4, -1)]
+        try:
+            os.setxattr(picture, "system.posix_acl_access", struct.pack("<I", 2) + b"".join(struct.pack("<HHi", *entry) for entry in entries))
+        except OSError:  # the file system has no such lists
+            pass
+
+        def rights():
+            status = picture.stat()
+            lists = {name: os.getxattr(picture, name) for name in os.listxattr(picture)}
+            return status.st_mode, status.st_uid, status.st_gid, lists
+
+        before, first = rights(), picture.stat().st_ino
+        self.assertEqual(self.run_program(scene, "-o", picture).returncode, 0)
+        self.assertNotEqual(picture.stat().st_ino, first)
+        self.assertEqual(rights(), before)
 
     def test_frames(self):
         shutil.move(self.asset / "wood.png", self.asset / "wood3.png")

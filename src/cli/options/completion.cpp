@@ -68,8 +68,10 @@ std::vector<std::string> names_of(const Option& option) {
   return {names.begin(), names.end()};
 }
 
-std::vector<std::string> words_of(const Option& option) {
-  return option.words != nullptr ? option.words() : std::vector<std::string>{};
+std::vector<std::string> words_of(const Option& option, Command command) {
+  const bool renders = command == Command::render || command == Command::view;
+  if (option.words == nullptr || (option.is_of_renders && !renders)) return {};
+  return option.words();
 }
 
 /// Returns true if the word after the option is its value.
@@ -97,13 +99,14 @@ std::string bash_cases(Command command) {
   std::string cases;
   for (const Option& option : named_options(command)) {
     const std::vector<std::string> option_names = names_of(option);
-    const std::vector<std::string> words = words_of(option);
+    const std::vector<std::string> words = words_of(option, command);
     all_names.insert(all_names.end(), option_names.begin(), option_names.end());
     const std::vector<std::string> names = bash_patterns(prefix, option);
     if (names.empty()) continue;
     const bool takes_file = option.completion != Completion::none;
     if (!words.empty()) {
       cases += "    " + joined(names, "|") + ") words=" + in_single_quotes(joined(words, " "));
+      if (option.takes_list) cases += " list=yes";
       cases += takes_file ? " files=yes ;;\n" : " ;;\n";
     } else {
       std::vector<std::string>& kind = takes_file ? files : free;
@@ -126,7 +129,7 @@ std::string bash_script() {
   return R"(# bash completion for microtrace
 _microtrace() {
   local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command=render
-  local words= files= names= operands= whole= file
+  local words= files= names= operands= whole= list= file
   if [[ $COMP_CWORD -gt 1 ]]; then
     case ${COMP_WORDS[1]} in )" +
          command_names("|") + R"() command=${COMP_WORDS[1]} ;; esac
@@ -151,6 +154,8 @@ _microtrace() {
     [[ $COMP_CWORD -gt 1 ]] || words=')" +
          command_names(" ") + R"('
   fi
+  # Completes the last item of a list.
+  [[ -n $list && $current == *,* ]] && whole+=${current%,*}, current=${current##*,}
   [[ -n $words ]] && mapfile -t COMPREPLY < <(compgen -W "$words" -P "$whole" -- "$current")
   [[ -n $files ]] || return
   compopt -o filenames 2>/dev/null
@@ -166,12 +171,14 @@ complete -F _microtrace microtrace
 )";
 }
 
-std::string zsh_value(const Option& option) {
-  const std::vector<std::string> words = words_of(option);
+std::string zsh_value(const Option& option, Command command) {
+  const std::vector<std::string> words = words_of(option, command);
   std::string value = ":" + escaped(std::string(option.metavar), ":\\") + ":";
   if (option.completion == Completion::folders) return value + "_files -/";
   if (option.completion == Completion::files) return value + "_files";
-  return value + (words.empty() ? " " : "(" + joined(words, " ") + ")");
+  if (words.empty()) return value + " ";
+  if (option.takes_list) return value + "_values -s , item " + joined(words, " ");
+  return value + "(" + joined(words, " ") + ")";
 }
 
 /// Returns the arguments of zsh's function _arguments for a command.
@@ -184,7 +191,7 @@ std::string zsh_arguments(Command command) {
       // =- requires a value to be in the same word, and a second colon makes it optional.
       if (!option.is_switch() && name.starts_with("--")) entry += has_value(option) ? "=" : "=-";
       entry += "[" + escaped(std::string(option.help), "[]:\\") + "]";
-      if (!option.is_switch()) entry += (has_value(option) ? "" : ":") + zsh_value(option);
+      if (!option.is_switch()) entry += (has_value(option) ? "" : ":") + zsh_value(option, command);
       script += "      " + in_single_quotes(entry) + " \\\n";
     }
   }
@@ -233,6 +240,13 @@ function __microtrace_command
     test render = $argv[1]
   end
 end
+# Completes the last item of a list.
+function __microtrace_list
+  set -l before (string match -r '^.*,' -- (string replace -r '^-[^=]*=' '' -- (commandline -ct)))
+  for word in $argv
+    echo "$before$word"
+  end
+end
 complete -c microtrace -n 'test (count (commandline -opc)) -eq 1' -a ')" +
                        command_names(" ") + R"('
 complete -c microtrace -n '__microtrace_command completion' -f -a ')" +
@@ -247,10 +261,14 @@ complete -c microtrace -n '__microtrace_command completion' -f -a ')" +
         script += (is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1);
       }
       if (!option.is_switch()) {
-        const std::vector<std::string> words = words_of(option);
+        const std::vector<std::string> words = words_of(option, command);
         const bool takes_file = option.completion != Completion::none;
         script += !has_value(option) ? " -f" : takes_file ? " -r -F" : " -x";
-        if (!words.empty()) script += " -a " + in_single_quotes(joined(words, " "));
+        if (!words.empty()) {
+          const std::string all = joined(words, " ");
+          script += " -a " +
+                    in_single_quotes(option.takes_list ? "(__microtrace_list " + all + ")" : all);
+        }
       }
       script += " -d " + in_single_quotes(escaped(std::string(option.help), "\\")) + "\n";
     }

@@ -61,6 +61,7 @@ constexpr std::array kDatasetOptions{
            .default_value = "png",
            .samples = Samples::change,
            .words = [] { return names_of(kFormats); },
+           .takes_list = true,
            .set = [](Arguments& a,
                      const OptionValue& value) { a.dataset.formats = parse_formats(value); }},
     Option{.names = "--name",

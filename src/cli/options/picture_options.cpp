@@ -62,6 +62,7 @@ constexpr std::array kPictureOptions{
             "denoise_emission are computed from the samples and need --integrator path",
         .samples = Samples::keep,
         .words = aov_names,
+        .takes_list = true,
         .set = [](Arguments& a, const OptionValue& value) { a.aovs = parse_aovs(value); }},
     Option{.names = "--sidecar",
            .metavar = "FILE",

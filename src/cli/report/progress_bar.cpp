@@ -1,11 +1,15 @@
 #include "cli/report/progress_bar.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace microtrace::cli {
@@ -18,18 +22,37 @@ bool can_draw() {
   return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
-void draw(double fraction, double seconds, std::uint32_t pictures) {
-  constexpr int kWidth = 40;
-  const int filled = static_cast<int>(fraction * kWidth);
-  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
-                          std::string(static_cast<std::size_t>(kWidth - filled), '.');
-  std::fprintf(stderr, "\r[%s] %3d %%", bar.c_str(), static_cast<int>(fraction * 100));
-  if (fraction > 0) std::fprintf(stderr, ", %.0f s left", seconds / fraction * (1 - fraction));
-  if (pictures > 1) {
-    const int picture = static_cast<int>(fraction * pictures) + 1;
-    std::fprintf(stderr, ", picture %d of %u", picture, pictures);
+/// A job in the background would write over what the user types.
+bool is_in_background() {
+  const pid_t group = ::tcgetpgrp(STDERR_FILENO);
+  return group > 0 && group != ::getpgrp();
+}
+
+/// Returns the length of the terminal's lines.
+std::size_t columns() {
+  winsize size{};
+  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? size.ws_col : 80;
+}
+
+/// Returns a line that is shorter than those of the terminal, which would wrap longer ones.
+std::string line_of(double fraction, double seconds, std::uint32_t pictures, std::size_t columns) {
+  std::string text = std::to_string(static_cast<int>(fraction * 100)) + " %";
+  text.insert(0, std::max(text.size(), std::size_t{5}) - text.size(), ' ');
+  if (fraction > 0) {
+    const double left = std::round(seconds / fraction * (1 - fraction));
+    text += ", " + std::to_string(static_cast<std::int64_t>(std::min(left, 1e9))) + " s left";
   }
-  std::fputs("\x1b[K", stderr);
+  if (pictures > 1) {
+    const auto picture = static_cast<std::uint32_t>(fraction * pictures) + 1;
+    text += ", picture " + std::to_string(picture) + " of " + std::to_string(pictures);
+  }
+  constexpr std::size_t kWidest = 40, kNarrowest = 4, kFrame = 3;
+  const std::size_t most = std::max(columns, std::size_t{2}) - 1;
+  if (text.size() + kFrame + kNarrowest > most) return text.substr(0, most);
+  const std::size_t width = std::min(kWidest, most - kFrame - text.size());
+  const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(width));
+  return "[" + std::string(filled, '#') + std::string(width - filled, '.') + "] " + text;
 }
 
 std::atomic<bool> is_drawn = false;
@@ -51,8 +74,11 @@ std::function<void(double)> progress_bar(std::uint32_t pictures) {
     if (fraction >= 1) {
       clear_progress_bar();
     } else if (now - start > 500ms && now - last > 100ms) {
-      draw(fraction, std::chrono::duration<double>(now - start).count(), pictures);
       last = now;
+      if (is_in_background()) return;
+      const double seconds = std::chrono::duration<double>(now - start).count();
+      const std::string line = line_of(fraction, seconds, pictures, columns());
+      std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
       is_drawn = true;
     }
   };

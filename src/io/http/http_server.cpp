@@ -114,10 +114,12 @@ HttpServer::HttpServer(const Options& options, Handler handle)
   if (exchanges_->server == nullptr) {
     const int code = exchanges_->system_error;
     const bool is_taken = code == EADDRINUSE || code == EACCES || code == EADDRNOTAVAIL;
-    throw Error(ErrorKind::io, "",
-                "port " + std::to_string(options.port) + " of 127.0.0.1 can't be used: " +
-                    exchanges_->complaint + (is_taken ? "; choose another port" : ""),
-                code);
+    throw Error(
+        ErrorKind::io, "",
+        (options.port == 0 ? std::string("a free port") : "port " + std::to_string(options.port)) +
+            " of 127.0.0.1 can't be used: " + exchanges_->complaint +
+            (is_taken ? "; choose another port" : ""),
+        code);
   }
 }
 

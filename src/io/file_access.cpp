@@ -1,0 +1,48 @@
+#include "io/file_access.hpp"
+
+#include <sys/xattr.h>
+#include <unistd.h>
+#include <vector>
+
+namespace microtrace::io {
+namespace {
+
+constexpr const char* kAccessList = "system.posix_acl_access";
+
+/// Copies the access control list, or removes the one that the file inherited from its folder.
+/// Returns false if the list can't be copied.
+bool copy_list(const std::filesystem::path& from, int descriptor) {
+  const ssize_t size = ::getxattr(from.c_str(), kAccessList, nullptr, 0);
+  if (size <= 0) {
+    static_cast<void>(::fremovexattr(descriptor, kAccessList));
+    return true;
+  }
+  std::vector<char> list(static_cast<std::size_t>(size));
+  const ssize_t read = ::getxattr(from.c_str(), kAccessList, list.data(), list.size());
+  return read == size && ::fsetxattr(descriptor, kAccessList, list.data(), list.size(), 0) == 0;
+}
+
+}  // namespace
+
+void copy_access(const std::filesystem::path& from, const struct stat& status, int descriptor) {
+  constexpr mode_t kGroup = 0070;
+  struct stat own {};
+  if (::fstat(descriptor, &own) != 0) return;
+  mode_t mode = status.st_mode & 0777;
+  const bool has_group = own.st_gid == status.st_gid ||
+                         ::fchown(descriptor, static_cast<uid_t>(-1), status.st_gid) == 0;
+  // The list comes before the permissions, whose group part is the mask of a list.
+  if (!copy_list(from, descriptor) || !has_group) mode &= ~kGroup;
+  static_cast<void>(::fchmod(descriptor, mode));
+  if (own.st_uid != status.st_uid)
+    static_cast<void>(::fchown(descriptor, status.st_uid, static_cast<gid_t>(-1)));
+}
+
+bool may_replace(const std::filesystem::path& folder, const struct stat& file) {
+  struct stat place {};
+  if (::stat(folder.c_str(), &place) != 0 || (place.st_mode & S_ISVTX) == 0) return true;
+  const uid_t self = ::geteuid();
+  return self == 0 || self == file.st_uid || self == place.st_uid;
+}
+
+}  // namespace microtrace::io
