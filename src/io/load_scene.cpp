@@ -49,6 +49,8 @@ void refuse_foreign_format(const std::string& extension, std::string_view first,
 /// Throws if no JSON text can start with these bytes. This avoids reading a long file that is not
 /// JSON to its end.
 void require_start_of_json(std::string_view first, const std::string& name) {
+  if (first.starts_with("\x1F\x8B"))
+    throw Error(ErrorKind::unsupported, name, "is compressed by gzip; decompress it with gunzip");
   const std::string_view text = behind_space(first);
   if (text.empty()) return;
   // Any other first character begins an invalid token that is complete within this chunk.

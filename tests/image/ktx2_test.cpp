@@ -87,6 +87,39 @@ TEST(DecodeKtx2, GivesTheSamplesOfTheReferenceTranscoder) {
   }
 }
 
+const std::vector<std::uint8_t>& samples_of(const DecodedImage& decoded) {
+  return std::get<std::vector<std::uint8_t>>(decoded.image.value().samples);
+}
+
+// Encoders for two channels store green as alpha. The same file, declared to have alpha, gives the
+// expected numbers.
+TEST(DecodeKtx2, RedAndGreen) {
+  const std::string names[] = {"etc1s_checks_64x64", "uastc_modes_56x56"};
+  constexpr char kRrr = 3, kGgg = 4, kRrrg = 5, kRg = 6;
+  constexpr std::size_t kSampleSize = 16;
+  for (const std::string& name : names) {
+    const bool is_etc1s = name.starts_with("etc1s");
+    const std::string whole = file(name);
+    const std::size_t channel = u32_at(whole, kDfdOffset) + kChannel;
+    const std::vector<std::uint8_t> rgba = samples_of(decode_image(whole));
+    for (const bool is_packed : {true, false}) {
+      if (is_etc1s && !is_packed) continue;
+      const DecodedImage decoded =
+          is_etc1s ? decode_with(whole, {{channel, kRrr}, {channel + kSampleSize, kGgg}})
+                   : decode_with(whole, {{channel, is_packed ? kRrrg : kRg}});
+      ASSERT_TRUE(decoded.image) << decoded.complaint;
+      EXPECT_EQ(decoded.image->channels, 3U);
+      const std::vector<std::uint8_t>& rg = samples_of(decoded);
+      ASSERT_EQ(rg.size() / 3, rgba.size() / 4);
+      for (std::size_t i = 0; i < rg.size() / 3; ++i) {
+        ASSERT_EQ(rg[3 * i], rgba[4 * i]) << name << ' ' << i;
+        ASSERT_EQ(rg[3 * i + 1], rgba[4 * i + (is_packed ? 3 : 1)]) << name << ' ' << i;
+        ASSERT_EQ(rg[3 * i + 2], 0) << name << ' ' << i;
+      }
+    }
+  }
+}
+
 // The picture is a gradient with red 7 x, green 5 y and blue 128 + x - y.
 TEST(DecodeKtx2, StartsAtTheUpperLeft) {
   const Image image = decode_image(file("uastc_linear_4x4")).image.value();
@@ -124,7 +157,7 @@ TEST(DecodeKtx2, UnsupportedTexturesAreRefusedByName) {
   expect(uastc, {kScheme, 3}, "zlib");
   expect(uastc, {kScheme, 9}, "supercompression scheme 9");
   expect(uastc, {dfd + kModel, static_cast<char>(167)}, "color model 167");
-  expect(uastc, {dfd + kChannel, 5}, "channels");
+  expect(uastc, {dfd + kChannel, 1}, "channels");
   expect(etc1s, {etc1s_dfd + kChannel, 5}, "channels");
   expect(etc1s, {kScheme, 0}, "ETC1S without BasisLZ");
   expect(etc1s, {u32_at(etc1s, kGlobalOffset) + 20, 2}, "video");
@@ -165,10 +198,28 @@ TEST(DecodeKtx2, SizesAreCheckedBeforeAllocation) {
   EXPECT_THAT(uastc.complaint, HasSubstr("size of its blocks"));
 }
 
+// Frames of a streaming encoder don't state their size, and skippable frames have no content.
+TEST(DecodeKtx2, ZstandardMayHaveAnyFrames) {
+  const std::string whole = file("uastc_zstd_17x31");
+  const std::size_t frame = u32_at(whole, kLevelOffset);
+  ASSERT_EQ(whole[frame + 4], 0x60);  // one segment, with a size of two bytes
+  std::string streamed = whole;
+  streamed.replace(frame + 4, 3, {0, 0});  // a window of 1 KiB instead
+  streamed[kLevelLength] = static_cast<char>(whole[kLevelLength] - 1);
+  std::string skipping = whole;
+  skipping.insert(frame, std::string("\x50\x2A\x4D\x18\x01\0\0\0x", 9));
+  skipping[kLevelLength] = static_cast<char>(whole[kLevelLength] + 9);
+  for (const std::string& bytes : {streamed, skipping}) {
+    const DecodedImage decoded = decode_image(bytes);
+    ASSERT_TRUE(decoded.image) << decoded.complaint;
+    EXPECT_EQ(samples_of(decoded), samples_of(decode_image(whole)));
+  }
+}
+
 TEST(DecodeKtx2, DamagedDataGivesTheReason) {
   const std::string zstd = file("uastc_zstd_17x31"), plain = file("uastc_linear_4x4");
   const std::size_t frame = u32_at(zstd, kLevelOffset);
-  EXPECT_THAT(decode_with(zstd, {{frame, 0}}).complaint, HasSubstr("size of the blocks"));
+  EXPECT_THAT(decode_with(zstd, {{frame, 0}}).complaint, HasSubstr("data is damaged"));
   EXPECT_THAT(decode_with(zstd, {{frame + 7, '\xFF'}}).complaint, HasSubstr("data is damaged"));
   EXPECT_THAT(decode_with(zstd, {{kLevelSize, 0}}).complaint, HasSubstr("size of its blocks"));
   EXPECT_THAT(decode_with(plain, {{kLevelLength, 15}}).complaint, HasSubstr("size of its blocks"));

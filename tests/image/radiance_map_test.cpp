@@ -4,9 +4,11 @@
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <initializer_list>
 #include <limits>
 #include <random>
 #include <string>
@@ -188,6 +190,46 @@ TEST(RadianceMapFile, RefusesCutOffTiff) {
     ASSERT_EQ(load_radiance_map(file).map->width, 256U);
     write_bytes(folder / "cut.tif", whole.substr(0, whole.size() / 2));
     EXPECT_EQ(kind_of(folder / "cut.tif", "can't be decoded"), ErrorKind::io) << compression;
+  }
+}
+
+/// Returns a TIFF file of 8 x 1 gray pixels. Each entry of the directory is a tag, and a number of
+/// 16 bits.
+std::string tiff_file(std::initializer_list<std::array<unsigned, 2>> entries,
+                      const std::string& pixels) {
+  const auto u16 = [](std::size_t x) {
+    return std::string{static_cast<char>(x & 255), static_cast<char>(x >> 8)};
+  };
+  const auto u32 = [&](std::size_t x) { return u16(x & 0xFFFF) + u16(x >> 16); };
+  std::string result = "II*" + std::string(1, '\0') + u32(8) + u16(entries.size());
+  const std::size_t end = 8 + 2 + 12 * entries.size() + 4;
+  constexpr unsigned kShort = 3, kStripOffsets = 273;
+  for (const auto& [tag, value] : entries)
+    result += u16(tag) + u16(kShort) + u32(1) + u32(tag == kStripOffsets ? end : value);
+  return result + u32(0) + pixels;
+}
+
+// OpenImageIO 2.4 misreads these files without an error.
+TEST(RadianceMapFile, RefusesTiffThatWouldBeMisread) {
+  const Folder folder;
+  const fs::path file = folder / "a.tif";
+  write_bytes(file, tiff_file({{256, 8}, {257, 1}, {262, 1}, {273, 0}, {278, 1}, {279, 1}}, "Z"));
+  EXPECT_EQ(kind_of(file, "1 bit per sample"), ErrorKind::io);
+  const std::string words(16, '\x11');
+  for (const unsigned photometric : {0U, 1U}) {
+    write_bytes(file, tiff_file({{256, 8},
+                                 {257, 1},
+                                 {258, 16},
+                                 {262, photometric},
+                                 {273, 0},
+                                 {277, 1},
+                                 {278, 1},
+                                 {279, 16}},
+                                words));
+    if (photometric == 0)
+      EXPECT_EQ(kind_of(file, "white is 0"), ErrorKind::io);
+    else
+      EXPECT_EQ(load_radiance_map(file).map->width, 8U);
   }
 }
 

@@ -47,12 +47,16 @@ void take_message(j_common_ptr info, int level) {
 }
 
 /// Limits the number of scans, because a small file can contain very many scans of a large image.
+/// Each takes time for all blocks of 8 x 8 samples.
 void limit_scans(j_common_ptr info) {
-  constexpr int kMaxScans = 500;
+  constexpr double kMaxScans = 500, kUsualScans = 32, kMaxBlocks = 4e8;
   auto* jpeg = reinterpret_cast<j_decompress_ptr>(info);
-  if (jpeg->input_scan_number <= kMaxScans) return;
+  const double scans = jpeg->input_scan_number, blocks = double{(jpeg->image_width + 7) / 8} *
+                                                         ((jpeg->image_height + 7) / 8) *
+                                                         jpeg->num_components;
+  if (scans <= kUsualScans || (scans <= kMaxScans && scans * blocks <= kMaxBlocks)) return;
   const auto* manager = reinterpret_cast<const ErrorManager*>(info->err);
-  manager->sink->complain(manager->sink->context, "has more than 500 scans");
+  manager->sink->complain(manager->sink->context, "has too many scans for its size");
   std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
 }
 

@@ -2,6 +2,7 @@
 /// memory, because only the library accesses files.
 
 #include "io/image/module_abi.hpp"
+#include "modules/openimageio/tiff_tags.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -102,6 +104,16 @@ class Orientation {
   std::size_t width_, height_;
 };
 
+/// Throws for kinds of TIFF files that OpenImageIO 2.4 misreads without an error.
+void require_readable_tiff(std::string_view file) {
+  constexpr std::uint32_t kBitsPerSample = 258, kCompression = 259, kPhotometric = 262;
+  const std::optional<std::uint32_t> bits = short_of_tiff(file, kBitsPerSample);
+  if (!bits && short_of_tiff(file, kCompression).value_or(1) == 1)
+    throw std::runtime_error("it is a TIFF file of 1 bit per sample; save it as PNG");
+  if (bits == 16U && short_of_tiff(file, kPhotometric) == 0U)
+    throw std::runtime_error("it is a TIFF file of 16 bits in which white is 0; save it as PNG");
+}
+
 void decode(const void* bytes, std::size_t size, const std::string& extension,
             const MicrotraceColorSink& sink) {
   OIIO::attribute("threads", 1);
@@ -123,10 +135,11 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   const int first = first_color(spec);
   const bool has_alpha = spec.alpha_channel == first + 3 && spec.nchannels > first + 3;
   const int count = spec.nchannels - first < 3 ? 1 : has_alpha ? 4 : 3;
-  const bool is_hdr = std::string_view(reader->format_name()) == "hdr";
+  const std::string_view format = reader->format_name();
   const std::string_view file(static_cast<const char*>(bytes), size);
+  if (format == "tiff") require_readable_tiff(file);
   const Orientation orientation(
-      spec, is_hdr ? orientation_of_hdr(file) : spec.get_int_attribute("Orientation", 1));
+      spec, format == "hdr" ? orientation_of_hdr(file) : spec.get_int_attribute("Orientation", 1));
   auto width = static_cast<std::uint32_t>(spec.width);
   auto height = static_cast<std::uint32_t>(spec.height);
   if (orientation.is_transposed()) std::swap(width, height);

@@ -227,6 +227,23 @@ TEST(GltfAnimationPointer, LightsChange) {
             std::numeric_limits<double>::infinity());
 }
 
+// Blender 5.0 writes a dot instead of the second slash.
+TEST(GltfAnimationPointer, AcceptsTheAnglesOfBlender) {
+  AssetBuilder asset = cube();
+  use(asset, "KHR_lights_punctual");
+  asset.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.125}, {"outerConeAngle", 0.75}}}}};
+  asset.json["scenes"][0]["nodes"].push_back(
+      asset.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}));
+  const char* pointer = "/extensions/KHR_lights_punctual/lights/0/spot.outerConeAngle";
+  point(asset, pointer, "SCALAR", {0.25F, 1.25F});
+  const LoadedScene loaded = load(asset, {.time = 1});
+  EXPECT_EQ(std::get<SpotLight>(loaded.scene.lights.at(0).light).outer_angle, 0.75);
+  EXPECT_EQ(std::get<SpotLight>(load(asset, {.time = 0}).scene.lights.at(0).light).outer_angle,
+            0.25);
+  EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("/lights/0/spot/outerConeAngle")));
+}
+
 TEST(GltfAnimationPointer, NodesAppearAndDisappear) {
   AssetBuilder asset = cube();
   use(asset, "KHR_node_visibility");

@@ -88,6 +88,29 @@ const Poke survived[] = {
     {set(rig_rotations, 3, 0.5F), "/accessors/12", "1 of its rotations are not unit"},
 };
 
+// Integers are normalized before their length is checked.
+TEST(GltfData, QuantizedDirectionsMustBeOfUnitLength) {
+  const auto warnings_of = [](const auto& normals, bool of_bytes) {
+    AssetBuilder asset = rig();
+    asset.json["extensionsUsed"] = asset.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    Json& normal = asset.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"];
+    normal = of_bytes ? asset.add_numbers<std::int8_t>("VEC3", normals.first, true)
+                      : asset.add_numbers<std::int16_t>("VEC3", normals.second, true);
+    return texts(load(asset).warnings);
+  };
+  using Bytes = std::vector<std::int8_t>;
+  using Words = std::vector<std::int16_t>;
+  const auto fine = std::pair{Bytes{73, 73, 73, -128, 0, 0, 0, 90, 90},
+                              Words{18918, 18918, 18918, -32768, 0, 0, 0, 23170, 23170}};
+  const auto half =
+      std::pair{Bytes{64, 0, 0, 0, 127, 0, 0, 0, 0}, Words{16384, 0, 0, 0, 32767, 0, 0, 0, 0}};
+  for (const bool of_bytes : {true, false}) {
+    const auto complaint = Contains(HasSubstr("2 of its elements are not unit vectors"));
+    EXPECT_THAT(warnings_of(fine, of_bytes), testing::Not(Contains(HasSubstr("unit vectors"))));
+    EXPECT_THAT(warnings_of(half, of_bytes), complaint);
+  }
+}
+
 TEST(GltfData, InvalidNumbersAreRefused) {
   for (const Poke& poke : refused) {
     SCOPED_TRACE(poke.message);

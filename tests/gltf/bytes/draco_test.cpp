@@ -118,6 +118,53 @@ TEST(GltfDraco, AccessorsWithOtherCountsAreIgnoredWithAWarning) {
   }
 }
 
+/// A mesh of two triangles as Draco's bitstream 2.2, sequential and not compressed.
+std::string two_triangles(std::size_t points, const std::string& attributes) {
+  std::string result("DRACO\2\2\1\0\0\0", 11);
+  result += {2, static_cast<char>(points), 1};  // counts; indices follow as they are
+  return result + std::string("\0\1\2\2\3\0", 6) + attributes;
+}
+
+// Version 1.5.5 of Draco's library rejects them.
+TEST(GltfDraco, PointsThatNoTriangleUsesAreReadOrNamed) {
+  constexpr std::size_t kPoints = 100;
+  std::string attributes("\1\1\0\x09\3\0\0\0", 8);  // one decoder of one attribute: VEC3, float32
+  std::vector<Vec3> positions;
+  for (std::size_t i = 0; i < kPoints; ++i)
+    positions.emplace_back(static_cast<float>(i % 2), static_cast<float>(i / 2), 0);
+  attributes.append(reinterpret_cast<const char*>(positions.data()), kPoints * sizeof(Vec3));
+  AssetBuilder asset = asset_of(two_triangles(kPoints, attributes));
+  Json& primitive = asset.json["meshes"][0]["primitives"][0];
+  primitive["attributes"] = {{"POSITION", 0}};
+  primitive["extensions"][kExtension]["attributes"] = {{"POSITION", 0}};
+  for (const std::size_t i : {0, 1, 2}) asset.json["accessors"][i]["count"] = kPoints;
+  asset.json["accessors"][3]["count"] = 6;
+  try {
+    const LoadedScene scene = load(asset);
+    EXPECT_EQ(std::get<Mesh>(scene.scene.objects.at(0).shape).positions, positions);
+  } catch (const Error& error) {
+    EXPECT_THAT(error.diagnostic().message, HasSubstr("points that no triangle uses"));
+  }
+}
+
+// Some tools compress only the indices of meshes with sparse positions.
+TEST(GltfDraco, MayHoldOnlyIndices) {
+  AssetBuilder asset = asset_of(two_triangles(0, std::string(1, '\0')));
+  const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  Json& primitive = asset.json["meshes"][0]["primitives"][0];
+  primitive["attributes"] = {{"POSITION", asset.add_positions(positions)}};
+  primitive["extensions"][kExtension]["attributes"] = Json::object();
+  asset.json["accessors"][3]["count"] = 6;
+  const LoadedScene scene = load(asset);
+  const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
+  EXPECT_EQ(mesh.positions, positions);
+  EXPECT_THAT(mesh.triangles,
+              testing::ElementsAre(testing::ElementsAre(0, 1, 2), testing::ElementsAre(2, 3, 0)));
+  asset.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+      asset.add_positions({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  EXPECT_THROW(static_cast<void>(load(asset)), Error);
+}
+
 TEST(GltfDraco, IndicesMustFitTheirComponentType) {
   AssetBuilder asset = asset_of(sample(false).bytes);
   asset.json["accessors"][3]["componentType"] = kUint8;

@@ -89,7 +89,7 @@ TEST(GltfSkin, AnimatedJointsMoveTheMesh) {
 
 TEST(GltfSkin, TheNodesTransformIsIgnored) {
   AssetBuilder asset = arm();
-  asset.json["nodes"][0].update({{"translation", {5, 6, 7}}, {"scale", {-2, 2, 2}}});
+  asset.json["nodes"][0].update({{"translation", {5, 6, 7}}, {"scale", {2, 2, 2}}});
   const LoadedScene loaded = load(asset);
   EXPECT_EQ(posed_mesh(loaded).positions, straight);
   EXPECT_EQ(posed_mesh(loaded).triangles, posed_mesh(load(arm())).triangles);
@@ -130,14 +130,22 @@ TEST(GltfSkin, JointsMayBeOutsideTheScene) {
   for (const Vec3& p : posed_mesh(load(asset)).positions) EXPECT_EQ(p.z, 4);
 }
 
-TEST(GltfSkin, MirroringJointsReverseTheWinding) {
-  AssetBuilder asset = arm();
-  asset.json["nodes"][1]["scale"] = {1, -1, 1};
-  const LoadedScene loaded = load(asset);
-  Array<std::array<std::uint32_t, 3>> turned = posed_mesh(load(arm())).triangles;
+// glTF 2.0, section 3.7.4. Exporters put the mirrored scale of a rig into the node, the joints and
+// their inverse bind matrices.
+TEST(GltfSkin, TheDeterminantOfTheNodeDefinesTheWinding) {
+  const Mesh usual = posed_mesh(load(arm()));
+  Array<std::array<std::uint32_t, 3>> turned = usual.triangles;
   for (auto& corners : turned.edit()) std::swap(corners[1], corners[2]);
-  EXPECT_EQ(posed_mesh(loaded).triangles, turned);
-  EXPECT_EQ(posed_mesh(loaded).normals[0], Vec3(0, 0, 1));
+  AssetBuilder mirrored_joint = arm(), mirrored_node = arm();
+  mirrored_joint.json["nodes"][1]["scale"] = {1, -1, 1};
+  mirrored_node.json["nodes"][0]["scale"] = {-1, 1, 1};
+  const Mesh by_joint = posed_mesh(load(mirrored_joint));
+  EXPECT_EQ(by_joint.triangles, usual.triangles);
+  EXPECT_EQ(by_joint.normals[0], Vec3(0, 0, 1));
+  const Mesh by_node = posed_mesh(load(mirrored_node));
+  EXPECT_EQ(by_node.triangles, turned);
+  EXPECT_EQ(by_node.positions, usual.positions);
+  EXPECT_EQ(by_node.normals, usual.normals);
 }
 
 TEST(GltfSkin, ReadsJointsAndWeightsOfAllTypesAndSets) {

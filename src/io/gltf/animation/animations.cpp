@@ -107,13 +107,30 @@ class AnimationPlayer::Reader {
       if (node && *node < model_.nodes.size() && path)
         return Target{pointer, *node, *path, {}, true};
     }
-    const std::optional<AnimatedProperty> property = find_property(asset_, text);
+    std::optional<AnimatedProperty> property = find_property(asset_, text);
+    if (!property) property = misspelled_angle(pointer);
     if (!property) {
       warn_of(pointer);
       return std::nullopt;
     }
     if (!property->is_boolean) return Target{pointer, 0, Path::property, *property, true};
     return Target{pointer, index_in(property->path[1]).value(), Path::visibility, *property, true};
+  }
+
+  /// Finds the angle of a spot light whose pointer has the spelling of Blender 5.0,
+  /// spot.outerConeAngle.
+  std::optional<AnimatedProperty> misspelled_angle(const Element& pointer) {
+    constexpr std::string_view kWrong = "/spot.", kRight = "/spot/";
+    std::string text(pointer.value->string());
+    const std::size_t at = text.rfind(kWrong);
+    if (at == std::string::npos) return std::nullopt;
+    text.replace(at, kWrong.size(), kRight);
+    std::optional<AnimatedProperty> property = find_property(asset_, text);
+    if (property) {
+      asset_.tolerate(pointer, "names " + in_quotes(pointer.value->string()) +
+                                   ", which does not exist; " + in_quotes(text) + " is animated");
+    }
+    return property;
   }
 
   void warn_of(const Element& at) {

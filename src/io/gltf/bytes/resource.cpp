@@ -1,6 +1,7 @@
 #include "io/gltf/bytes/resource.hpp"
 
 #include "base/memory_account.hpp"
+#include "base/system/error_text.hpp"
 #include "base/text/printable.hpp"
 #include "io/confined_reads.hpp"
 #include "io/file.hpp"
@@ -65,7 +66,7 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
       asset.fail(uri, file + " is not a regular file", ErrorKind::io);
     // A missing file means that the asset is incomplete, not that the machine failed.
     if (!code) asset.fail(uri, file + " does not exist");
-    asset.fail(uri, file + " can't be opened: " + code.message(), ErrorKind::io);
+    asset.fail(uri, file + " can't be opened: " + error_text(code.value()), ErrorKind::io);
   }
   try {
     const ConfinedReads confined(folders.own, folders.allowed);

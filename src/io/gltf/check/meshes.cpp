@@ -241,10 +241,15 @@ class MeshCheck {
       asset_.tolerate(at.member("material"), "needs TEXCOORD_" + text(set) + " for its " + name +
                                                  ", which the primitive does not have");
     }
-    if (textures.needs_tangents && attributes.value->find("TANGENT") == nullptr) {
+    if (textures.tangent_set && attributes.value->find("TANGENT") == nullptr) {
+      const std::string set = "TEXCOORD_" + text(*textures.tangent_set);
+      const bool has_set = attributes.value->find(set) != nullptr;
       asset_.tolerate(
           at.member("material"),
-          "needs tangents, but neither the primitive nor a normal texture defines them");
+          "needs TANGENT, which the primitive does not have; " +
+              (has_set ? "tangents are generated from " + set
+                       : "without " + set +
+                             ", too, anisotropy and the clear coat's normals are left out"));
     }
   }
 

@@ -3,6 +3,8 @@
 #include "io/gltf/document/extension.hpp"
 #include "io/gltf/extensions/extensions.hpp"
 
+#include <string_view>
+
 namespace microtrace::io::gltf {
 namespace {
 
@@ -44,6 +46,16 @@ bool needs_tangents(const JsonValue& material) {
          (clearcoat != nullptr && clearcoat->find("clearcoatNormalTexture") != nullptr);
 }
 
+/// Returns the set that missing_tangents() chooses, for a material without a normal texture.
+double tangent_set(const MaterialTextures& textures) {
+  for (const std::string_view key : {"clearcoatNormalTexture", "anisotropyTexture"}) {
+    for (const auto& [name, set] : textures.sets) {
+      if (name == key) return set;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::vector<MaterialTextures> texture_infos(const Asset& asset) {
@@ -51,7 +63,7 @@ std::vector<MaterialTextures> texture_infos(const Asset& asset) {
   for (const JsonValue& material : asset.array("materials")) {
     MaterialTextures textures;
     collect(material, textures.sets);
-    textures.needs_tangents = needs_tangents(material);
+    if (needs_tangents(material)) textures.tangent_set = tangent_set(textures);
     result.push_back(std::move(textures));
   }
   return result;

@@ -4,6 +4,7 @@
 #include "io/gltf/document/asset.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,9 +16,10 @@ inline constexpr std::uint32_t kMaxUvSets = 16;
 
 struct MaterialTextures {
   std::vector<std::pair<std::string, double>> sets;  ///< each texture's key and TEXCOORD set
-  /// True if the vertices need TANGENT: the material has anisotropy or a clear coat normal texture,
-  /// but no normal texture, whose coordinates would define tangents.
-  bool needs_tangents = false;
+  /// If the vertices need TANGENT, the TEXCOORD set from which missing tangents are generated. This
+  /// is the case if the material has anisotropy or a clear coat normal texture, but no normal
+  /// texture, whose coordinates would define tangents.
+  std::optional<double> tangent_set{};
 };
 
 /// Returns the texture infos of each material and its extensions.

@@ -2,7 +2,6 @@
 
 #include <microtrace/placement.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace microtrace::io::gltf {
@@ -14,9 +13,11 @@ DVec3 vector_of(const Array<Own>& own, const std::vector<DVec3>& morphed, std::s
   return morphed.empty() ? DVec3(own[i]) : morphed[i];
 }
 
-/// Bakes a mesh. placement_of(i) must return the Placement of vertex i.
+/// Bakes a mesh. placement_of(i) must return the Placement of vertex i. If `is_mirrored` is true,
+/// the file's triangles are clockwise where the mesh is placed.
 template <typename PlacementOf>
-Mesh baked_by(const Mesh& mesh, const Morphed& morphed, const PlacementOf& placement_of) {
+Mesh baked_by(const Mesh& mesh, const Morphed& morphed, bool is_mirrored,
+              const PlacementOf& placement_of) {
   Mesh result;
   result.uv_sets = morphed.uv_sets.empty() ? mesh.uv_sets : morphed.uv_sets;
   if (morphed.colors.empty())
@@ -28,11 +29,9 @@ Mesh baked_by(const Mesh& mesh, const Morphed& morphed, const PlacementOf& place
   result.positions.reserve(mesh.positions.size());
   result.normals.reserve(mesh.normals.size());
   result.tangents.reserve(mesh.tangents.size());
-  std::vector<bool> mirrored(mesh.positions.size());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Placement& placement = placement_of(i);
     result.positions.emplace_back(placement.point(vector_of(mesh.positions, morphed.positions, i)));
-    mirrored[i] = placement.is_mirrored();
     if (!mesh.normals.empty()) {
       const DVec3 normal = vector_of(mesh.normals, morphed.normals, i);
       result.normals.emplace_back(placement.normal(normal));
@@ -41,12 +40,11 @@ Mesh baked_by(const Mesh& mesh, const Morphed& morphed, const PlacementOf& place
       const DVec3 tangent = vector_of(mesh.tangents, morphed.tangents, i);
       const float handedness = mesh.tangents[i].w;
       result.tangents.emplace_back(Vec3(placement.direction(tangent)),
-                                   placement.is_mirrored() ? -handedness : handedness);
+                                   is_mirrored ? -handedness : handedness);
     }
   }
-  if (std::ranges::find(mirrored, true) == mirrored.end()) return result;
-  for (auto& corners : result.triangles.edit()) {
-    if (mirrored[corners[0]]) std::swap(corners[1], corners[2]);
+  if (is_mirrored) {
+    for (auto& corners : result.triangles.edit()) std::swap(corners[1], corners[2]);
   }
   return result;
 }
@@ -55,11 +53,13 @@ Mesh baked_by(const Mesh& mesh, const Morphed& morphed, const PlacementOf& place
 
 Mesh baked(const Mesh& mesh, const Morphed& morphed, const DMat4& world_from_mesh) {
   const Placement placement(world_from_mesh);
-  return baked_by(mesh, morphed, [&](std::size_t) -> const Placement& { return placement; });
+  return baked_by(mesh, morphed, placement.is_mirrored(),
+                  [&](std::size_t) -> const Placement& { return placement; });
 }
 
-Mesh baked(const Mesh& mesh, const Morphed& morphed, const JointBlend& blend) {
-  return baked_by(mesh, morphed,
+Mesh baked(const Mesh& mesh, const Morphed& morphed, const JointBlend& blend,
+           const DMat4& world_from_node) {
+  return baked_by(mesh, morphed, Placement(world_from_node).is_mirrored(),
                   [&](std::size_t vertex) { return Placement(blend.world_from_mesh(vertex)); });
 }
 

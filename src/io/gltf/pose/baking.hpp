@@ -15,8 +15,9 @@ namespace microtrace::io::gltf {
 /// direction becomes zero. Morphed attributes replace the mesh's own.
 [[nodiscard]] Mesh baked(const Mesh& mesh, const Morphed& morphed, const DMat4& world_from_mesh);
 
-/// Does the same with one transform per vertex. Reverses a triangle's winding if the transform of
-/// its first vertex mirrors.
-[[nodiscard]] Mesh baked(const Mesh& mesh, const Morphed& morphed, const JointBlend& blend);
+/// Does the same with one transform per vertex. The transform of the node decides only about the
+/// winding and the handedness of tangents, also where joints mirror.
+[[nodiscard]] Mesh baked(const Mesh& mesh, const Morphed& morphed, const JointBlend& blend,
+                         const DMat4& world_from_node);
 
 }  // namespace microtrace::io::gltf

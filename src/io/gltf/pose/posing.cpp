@@ -45,7 +45,7 @@ Mesh Poser::posed(std::size_t index, const Surface& surface, const DMat4& world_
   const Morphed morphed = morpher_.morphed(*node.mesh, surface, weights(index));
   if (node.skin) {
     const std::optional<JointBlend> blend = skins_.blend(*node.skin, *node.mesh, surface);
-    if (blend) return baked(surface.mesh, morphed, *blend);
+    if (blend) return baked(surface.mesh, morphed, *blend, world_from_mesh);
   }
   return baked(surface.mesh, morphed, world_from_mesh);
 }

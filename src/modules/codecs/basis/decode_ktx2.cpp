@@ -5,6 +5,7 @@
 #include "modules/codecs/codecs.hpp"
 
 #include <new>
+#include <string>
 #include <vector>
 #include <zstd.h>
 
@@ -17,15 +18,22 @@ namespace {
 /// decompresses them into `storage`.
 Bytes uastc_blocks(const Ktx2& ktx2, std::size_t size, std::vector<unsigned char>& storage) {
   if (!ktx2.is_zstd) return ktx2.level;
-  // Checks the content size in Zstandard's frame header before memory is allocated.
-  if (ZSTD_getFrameContentSize(ktx2.level.data(), ktx2.level.size()) != size) {
-    throw Damage("the Zstandard data does not have the size of the blocks");
-  }
+  // The headers of frames need not state their sizes.
   storage.resize(size);
-  if (ZSTD_decompress(storage.data(), size, ktx2.level.data(), ktx2.level.size()) != size) {
-    throw Damage("the Zstandard data is damaged");
+  const std::size_t written =
+      ZSTD_decompress(storage.data(), size, ktx2.level.data(), ktx2.level.size());
+  if (ZSTD_isError(written) != 0) {
+    throw Damage(std::string("the Zstandard data is damaged: ") + ZSTD_getErrorName(written));
   }
+  if (written != size) throw Damage("the Zstandard data does not have the size of the blocks");
   return storage;
+}
+
+/// Gives texels that have only red and green a blue of 0.
+void keep_red_and_green(Channels channels, Block& block) {
+  if (channels == Channels::rgb || channels == Channels::rgba) return;
+  const std::size_t green = channels == Channels::red_alpha ? 3 : 1;
+  for (Color& color : block) color = {color[0], color[green], 0, 255};
 }
 
 void decode_uastc(const Ktx2& ktx2, const Texels& texels) {
@@ -34,8 +42,10 @@ void decode_uastc(const Ktx2& ktx2, const Texels& texels) {
   const Bytes blocks = uastc_blocks(ktx2, row * texels.blocks_y(), storage);
   for (std::uint32_t y = 0; y < texels.blocks_y(); ++y) {
     for (std::uint32_t x = 0; x < texels.blocks_x(); ++x) {
-      const Bytes block = blocks.subspan(y * row + x * kUastcBlockSize, kUastcBlockSize);
-      texels.set_block(x, y, decode_uastc_block(block), 0, texels.channels);
+      const Bytes bytes = blocks.subspan(y * row + x * kUastcBlockSize, kUastcBlockSize);
+      Block block = decode_uastc_block(bytes);
+      keep_red_and_green(ktx2.channels, block);
+      texels.set_block(x, y, block, 0, texels.channels);
     }
   }
 }
@@ -43,12 +53,18 @@ void decode_uastc(const Ktx2& ktx2, const Texels& texels) {
 void decode_etc1s(const Ktx2& ktx2, const Texels& texels) {
   const Codebooks books = read_codebooks(ktx2);
   decode_color_slice(books, texels);
-  if (ktx2.has_alpha) decode_alpha_slice(books, texels);
+  if (ktx2.channels == Channels::rgba) decode_second_slice(books, texels, 3);
+  if (ktx2.channels == Channels::red_alpha) {
+    decode_second_slice(books, texels, 1);
+    const std::size_t count = std::size_t{texels.width} * texels.height;
+    for (std::size_t i = 0; i < count; ++i) texels.samples[i * texels.channels + 2] = 0;
+  }
 }
 
 bool decode(Bytes file, const MicrotraceImageSink& sink) {
   const Ktx2 ktx2 = read_ktx2(file);
-  const MicrotraceImageHeader header{ktx2.width, ktx2.height, ktx2.has_alpha ? 4U : 3U, 8};
+  const MicrotraceImageHeader header{ktx2.width, ktx2.height,
+                                     ktx2.channels == Channels::rgba ? 4U : 3U, 8};
   auto* samples = static_cast<unsigned char*>(sink.begin(sink.context, &header));
   if (samples == nullptr) return false;
   const Texels texels{samples, header.width, header.height, header.channels};

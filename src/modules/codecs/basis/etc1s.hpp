@@ -27,8 +27,8 @@ struct Codebooks {
   std::vector<Selector> selectors;
   HuffmanTable predictions, endpoint_deltas, selector_symbols, history_runs;
   std::uint32_t history_size = 0;
-  /// Slices of the base level; alpha_slice is empty if there is no alpha.
-  Bytes color_slice{}, alpha_slice{};
+  /// Slices of the base level. The second one has alpha or green; it is empty if there is neither.
+  Bytes color_slice{}, second_slice{};
 };
 
 /// Reads the codebooks. Throws Damage.
@@ -36,8 +36,8 @@ struct Codebooks {
 
 /// Decodes the color slice into the red, green and blue channels. Throws Damage.
 void decode_color_slice(const Codebooks& books, const Texels& texels);
-/// Decodes the alpha slice, whose green channel stores alpha, into the alpha channel. Throws
-/// Damage.
-void decode_alpha_slice(const Codebooks& books, const Texels& texels);
+/// Decodes the second slice, which stores its numbers in its green channel, into this channel.
+/// Throws Damage.
+void decode_second_slice(const Codebooks& books, const Texels& texels, std::uint32_t channel);
 
 }  // namespace basis

@@ -81,7 +81,7 @@ Codebooks read_codebooks(const Ktx2& ktx2) {
                   .history_runs = read_huffman_table(tables),
                   .history_size = tables.read(13),
                   .color_slice = slice(4)};
-  if (ktx2.has_alpha) books.alpha_slice = slice(12);
+  if (ktx2.channels != Channels::rgb) books.second_slice = slice(12);
   return books;
 }
 

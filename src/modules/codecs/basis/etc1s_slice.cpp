@@ -174,8 +174,8 @@ void decode_color_slice(const Codebooks& books, const Texels& texels) {
   decode_slice(books, books.color_slice, texels, 0, 3);
 }
 
-void decode_alpha_slice(const Codebooks& books, const Texels& texels) {
-  decode_slice(books, books.alpha_slice, texels, 3, 4);
+void decode_second_slice(const Codebooks& books, const Texels& texels, std::uint32_t channel) {
+  decode_slice(books, books.second_slice, texels, channel, channel + 1);
 }
 
 }  // namespace basis

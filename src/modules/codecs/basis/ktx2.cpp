@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,8 +16,8 @@ enum Scheme : std::uint32_t { none = 0, basis_lz = 1, zstandard = 2, zlib = 3 };
 
 // Color models and channels of the Khronos Data Format Specification.
 constexpr std::uint32_t kModelEtc1s = 163, kModelUastc = 166;
-constexpr std::uint32_t kEtc1sRgb = 0, kEtc1sRrr = 3, kEtc1sAaa = 15;
-constexpr std::uint32_t kUastcRgb = 0, kUastcRgba = 3, kUastcRrr = 4;
+constexpr std::uint32_t kEtc1sRgb = 0, kEtc1sRrr = 3, kEtc1sGgg = 4, kEtc1sAaa = 15;
+constexpr std::uint32_t kUastcRgb = 0, kUastcRgba = 3, kUastcRrr = 4, kUastcRrrg = 5, kUastcRg = 6;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Damage("is KTX2 " + what +
@@ -42,6 +43,33 @@ void check_shape(Bytes file) {
   }
 }
 
+/// Returns the channels of ETC1S, by those of its slices.
+std::optional<Channels> etc1s_channels(std::size_t slices, std::uint32_t first,
+                                       std::uint32_t second) {
+  if (slices > 2 || (first != kEtc1sRgb && first != kEtc1sRrr)) return std::nullopt;
+  if (slices < 2) return Channels::rgb;
+  if (second == kEtc1sAaa) return Channels::rgba;
+  if (first == kEtc1sRrr && second == kEtc1sGgg) return Channels::red_alpha;
+  return std::nullopt;
+}
+
+std::optional<Channels> uastc_channels(std::size_t samples, std::uint32_t channel) {
+  if (samples != 1) return std::nullopt;
+  switch (channel) {
+    case kUastcRgb:
+    case kUastcRrr:
+      return Channels::rgb;
+    case kUastcRgba:
+      return Channels::rgba;
+    case kUastcRrrg:
+      return Channels::red_alpha;
+    case kUastcRg:
+      return Channels::red_green;
+    default:
+      return std::nullopt;
+  }
+}
+
 /// Reads the basic block of the data format descriptor.
 void read_descriptor(Bytes file, Ktx2& ktx2) {
   constexpr const char* kDamaged = "the data format descriptor is damaged";
@@ -55,22 +83,14 @@ void read_descriptor(Bytes file, Ktx2& ktx2) {
   const auto channel = [&](std::size_t i) { return dfd[kHeads + i * kSampleSize + 3] & 0xFU; };
 
   const std::uint32_t model = dfd[12];
-  if (model == kModelEtc1s) {
-    ktx2.format = TexelFormat::etc1s;
-    ktx2.has_alpha = samples > 1;
-    if (samples > 2 || (channel(0) != kEtc1sRgb && channel(0) != kEtc1sRrr) ||
-        (samples == 2 && channel(1) != kEtc1sAaa)) {
-      refuse("with channels other than RGB or RGBA");
-    }
-  } else if (model == kModelUastc) {
-    ktx2.format = TexelFormat::uastc;
-    ktx2.has_alpha = channel(0) == kUastcRgba;
-    if (samples != 1 || (!ktx2.has_alpha && channel(0) != kUastcRgb && channel(0) != kUastcRrr)) {
-      refuse("with channels other than RGB or RGBA");
-    }
-  } else {
+  if (model != kModelEtc1s && model != kModelUastc)
     refuse("in color model " + std::to_string(model));
-  }
+  ktx2.format = model == kModelEtc1s ? TexelFormat::etc1s : TexelFormat::uastc;
+  const std::optional<Channels> channels =
+      model == kModelEtc1s ? etc1s_channels(samples, channel(0), samples > 1 ? channel(1) : 0)
+                           : uastc_channels(samples, channel(0));
+  if (!channels) refuse("with channels other than R, RG, RGB or RGBA");
+  ktx2.channels = *channels;
 }
 
 /// Checks one metadata entry. Text values may end with a null byte.

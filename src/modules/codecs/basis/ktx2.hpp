@@ -10,11 +10,19 @@ namespace basis {
 
 enum class TexelFormat { etc1s, uastc };
 
+/// The channels of texels, and how the formats store them.
+enum class Channels {
+  rgb,
+  rgba,
+  red_green,  ///< the first two color channels
+  red_alpha,  ///< red and green, in the place of color and alpha
+};
+
 /// The base level of a 2D texture.
 struct Ktx2 {
   std::uint32_t width = 0, height = 0;  ///< pixels, at least 1
   TexelFormat format = TexelFormat::etc1s;
-  bool has_alpha = false;
+  Channels channels = Channels::rgb;
   bool is_zstd = false;      ///< true if the level is compressed by Zstandard
   Bytes level{};             ///< the level's data
   Bytes global{};            ///< data shared by all levels, for ETC1S

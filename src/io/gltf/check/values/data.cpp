@@ -1,5 +1,6 @@
 #include "io/gltf/check/values/data.hpp"
 
+#include "io/gltf/check/values/element_bounds.hpp"
 #include "io/gltf/check/values/elements.hpp"
 #include "io/gltf/check/values/influences.hpp"
 #include "io/gltf/check/values/uses.hpp"
@@ -10,91 +11,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace microtrace::io::gltf {
 namespace {
-
-constexpr std::size_t kMaxComponents = 16;
-
-struct Bounds {
-  std::array<double, kMaxComponents> least{}, greatest{};
-  bool all_finite = true;
-};
-
-template <typename Number, std::size_t components>
-Bounds bounds_of(const Elements& elements) {
-  std::array<Number, components> least{}, greatest{}, doubt{};
-  least.fill(std::numeric_limits<Number>::max());
-  greatest.fill(std::numeric_limits<Number>::lowest());
-  for (std::size_t i = 0; i < elements.count(); ++i) {
-    const auto element = elements.at<std::array<Number, components>>(i, 0);
-    for (std::size_t k = 0; k < components; ++k) {
-      least[k] = element[k] < least[k] ? element[k] : least[k];
-      greatest[k] = element[k] > greatest[k] ? element[k] : greatest[k];
-      // x * 0 is 0 unless x is infinite or NaN.
-      if constexpr (std::is_floating_point_v<Number>) doubt[k] += element[k] * Number(0);
-    }
-  }
-  Bounds result;
-  std::ranges::copy(least, result.least.begin());
-  std::ranges::copy(greatest, result.greatest.begin());
-  result.all_finite = std::ranges::all_of(doubt, [](Number sum) { return sum == 0; });
-  return result;
-}
-
-/// Returns true if no number is infinite or NaN, which have an exponent of all ones.
-bool all_finite(const Elements& elements) {
-  constexpr std::uint32_t kExponent = 0x7F800000;
-  const std::size_t components = elements.components();
-  std::uint32_t bad = 0;
-  if (elements.stride() == components * sizeof(float)) {
-    for (std::size_t i = 0; i < elements.count() * components; ++i) {
-      bad |= (elements.at<std::uint32_t>(0, i) & kExponent) == kExponent ? 1U : 0U;
-    }
-    return bad == 0;
-  }
-  for (std::size_t i = 0; i < elements.count(); ++i) {
-    for (std::size_t k = 0; k < components; ++k) {
-      bad |= (elements.at<std::uint32_t>(i, k) & kExponent) == kExponent ? 1U : 0U;
-    }
-  }
-  return bad == 0;
-}
-
-template <typename Number>
-Bounds bounds_of(const Elements& elements) {
-  switch (elements.components()) {
-    case 1:
-      return bounds_of<Number, 1>(elements);
-    case 2:
-      return bounds_of<Number, 2>(elements);
-    case 3:
-      return bounds_of<Number, 3>(elements);
-    case 4:
-      return bounds_of<Number, 4>(elements);
-    case 9:
-      return bounds_of<Number, 9>(elements);
-    default:
-      return bounds_of<Number, 16>(elements);
-  }
-}
-
-Bounds bounds_of(const Elements& elements) {
-  switch (elements.component_type()) {
-    case kInt8:
-      return bounds_of<std::int8_t>(elements);
-    case kUint8:
-      return bounds_of<std::uint8_t>(elements);
-    case kInt16:
-      return bounds_of<std::int16_t>(elements);
-    case kUint16:
-      return bounds_of<std::uint16_t>(elements);
-    case kUint32:
-      return bounds_of<std::uint32_t>(elements);
-    default:
-      return bounds_of<float>(elements);
-  }
-}
 
 class DataCheck {
  public:
@@ -108,18 +28,29 @@ class DataCheck {
       if (is_float && !all_finite(elements_)) tolerate_not_finite();
       return;
     }
-    const Bounds found = bounds_of(elements_);
+    const ElementBounds found = bounds_of(elements_);
     if (!found.all_finite) tolerate_not_finite();
     same("min", found.least, is_float);
     same("max", found.greatest, is_float);
   }
 
   void uses(const AccessorUses& uses) const {
-    if (elements_.component_type() != kFloat32) return;
-    if (uses.normals || uses.tangents) unit_vectors();
-    if (uses.tangents) signs();
+    switch (elements_.component_type()) {
+      case kInt8:
+        return directions<std::int8_t>(uses);
+      case kUint8:
+        return directions<std::uint8_t>(uses);
+      case kInt16:
+        return directions<std::int16_t>(uses);
+      case kUint16:
+        return directions<std::uint16_t>(uses);
+      case kFloat32:
+        break;
+      default:
+        return;
+    }
+    directions<float>(uses);
     if (uses.colors) colors();
-    if (uses.quaternions) quaternions(uses.spline);
     if (uses.times) times();
     if (uses.matrices) matrices();
   }
@@ -153,13 +84,41 @@ class DataCheck {
     asset_.tolerate(at_, "element " + std::to_string(first) + " is not finite");
   }
 
-  [[nodiscard]] float square_of(std::size_t element, std::size_t components) const {
-    float square = 0;
-    for (std::size_t k = 0; k < components; ++k) {
-      const auto value = elements_.at<float>(element, k);
-      square += value * value;
+  /// Returns a component of an element whose integers are normalized.
+  template <typename Number>
+  [[nodiscard]] float normalized(std::size_t element, std::size_t component) const {
+    const auto value = static_cast<float>(elements_.at<Number>(element, component));
+    if constexpr (std::is_floating_point_v<Number>) return value;
+    return std::max(value / static_cast<float>(std::numeric_limits<Number>::max()), -1.0F);
+  }
+
+  /// Checks elements that must be of unit length.
+  template <typename Number>
+  void directions(const AccessorUses& uses) const {
+    // Rounding four components to 8 bits can change the length by 1/127, and its square by twice
+    // as much.
+    constexpr float kSlack = sizeof(Number) == 1 ? 0.016F : 0.01F;
+    const auto has_unit_length = [this](std::size_t element, std::size_t components) {
+      float square = 0;
+      for (std::size_t k = 0; k < components; ++k) {
+        const float value = normalized<Number>(element, k);
+        square += value * value;
+      }
+      return std::abs(square - 1) <= kSlack;
+    };
+    if (uses.normals || uses.tangents) {
+      each(1, 0, " of its elements are not unit vectors, as normals and tangents must be",
+           [&](std::size_t i) { return has_unit_length(i, 3); });
     }
-    return square;
+    if (uses.tangents) {
+      each(1, 0, " of its tangents have a w that is neither 1 nor -1",
+           [&](std::size_t i) { return std::abs(normalized<Number>(i, 3)) == 1; });
+    }
+    if (uses.quaternions) {
+      // In a cubic spline, only the middle one of each three elements is a rotation.
+      each(uses.spline ? 3 : 1, uses.spline ? 1 : 0, " of its rotations are not unit quaternions",
+           [&](std::size_t i) { return has_unit_length(i, 4); });
+    }
   }
 
   /// Warns once, with the number of elements that fail the test.
@@ -168,16 +127,6 @@ class DataCheck {
     std::size_t bad = 0;
     for (std::size_t i = first; i < elements_.count(); i += step) bad += test(i) ? 0 : 1;
     if (bad != 0) asset_.tolerate(at_, std::to_string(bad) + message);
-  }
-
-  void unit_vectors() const {
-    each(1, 0, " of its elements are not unit vectors, as normals and tangents must be",
-         [this](std::size_t i) { return std::abs(square_of(i, 3) - 1) <= 0.01F; });
-  }
-
-  void signs() const {
-    each(1, 0, " of its tangents have a w that is neither 1 nor -1",
-         [this](std::size_t i) { return std::abs(elements_.at<float>(i, 3)) == 1; });
   }
 
   void colors() const {
@@ -189,12 +138,6 @@ class DataCheck {
       }
       return inside;
     });
-  }
-
-  /// In a cubic spline, only the middle one of each three elements is a rotation.
-  void quaternions(bool spline) const {
-    each(spline ? 3 : 1, spline ? 1 : 0, " of its rotations are not unit quaternions",
-         [this](std::size_t i) { return std::abs(square_of(i, 4) - 1) <= 0.01F; });
   }
 
   void times() const {
