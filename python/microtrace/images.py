@@ -4,7 +4,7 @@ them."""
 from __future__ import annotations
 
 from os import PathLike
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,14 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_array, as_float32, as_path, as_reals, as_text
 from .errors import warn
+
+
+class PillowImage(Protocol):
+    """What Image uses of Pillow's class."""
+
+    @property
+    def mode(self) -> str: ...
+    def convert(self, mode: str) -> Any: ...
 
 
 class Image:
@@ -26,7 +34,7 @@ class Image:
         name: any text.
     """
 
-    def __init__(self, pixels: npt.ArrayLike, name: str = "") -> None:
+    def __init__(self, pixels: npt.ArrayLike | PillowImage, name: str = "") -> None:
         array = as_array(_direct(pixels), "pixels")
         if array.ndim == 0:
             raise TypeError(f"pixels must be an array of uint8 or uint16, not {pixels!r}")

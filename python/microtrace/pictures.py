@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -132,6 +132,12 @@ class Picture(Mapping[str, Array]):
             raise AttributeError(f"{name} can't be replaced; change the array's elements")
         super().__setattr__(name, value)
 
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._arrays]
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self._arrays)
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)
 
@@ -190,7 +196,7 @@ class Picture(Mapping[str, Array]):
         settings = self._display(exposure, tone_map)
         _core.save(self["color"], *settings, self._denoiser, rest, self._part, path)
 
-    def one(self, index: int) -> Picture:
+    def one(self, index: SupportsIndex) -> Picture:
         """Returns one picture of a stack, by its camera's index. The arrays are views.
 
         Raises:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ._brief import Brief
 from .cameras import Camera
 from .prepared import PreparedScene
 from .scene import Scene
 
 
-@dataclass
-class Shutter:
+@dataclass(eq=False, repr=False)
+class Shutter(Brief):
     """The time during which a path-traced picture collects light from a moving scene.
 
     Each sample sees the scene at one of `times` times: the middles of equal slices of the time from

@@ -71,7 +71,9 @@ class View:
         state = "closed" if self._core.is_closed else self.url
         return f"View({state})"
 
-    def _repr_html_(self) -> str:
+    def _repr_html_(self) -> str | None:
+        if self._core.is_closed:
+            return None
         return (
             f'<iframe src="{escape(self.url)}" width="100%" height="{self._height}" '
             'allow="clipboard-write" style="border: 0"></iframe>'

@@ -18,10 +18,16 @@ nb::object text_of(const std::string& text) {
       PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
 }
 
+/// Converts a path as Python's os.fsdecode() does, also if the encoding of paths is not UTF-8.
+nb::object path_of(const std::string& path) {
+  return nb::steal(
+      PyUnicode_DecodeFSDefaultAndSize(path.data(), static_cast<Py_ssize_t>(path.size())));
+}
+
 }  // namespace
 
 nb::object to_python(const Diagnostic& diagnostic) {
-  return member("errors", "Diagnostic")(text_of(diagnostic.file), diagnostic.line,
+  return member("errors", "Diagnostic")(path_of(diagnostic.file), diagnostic.line,
                                         diagnostic.column, text_of(diagnostic.pointer),
                                         text_of(diagnostic.message), text_of(diagnostic.text()));
 }

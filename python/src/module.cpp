@@ -47,13 +47,24 @@ NB_MODULE(unchecked_core, module) {
 namespace {
 
 /// Fails in subinterpreters. nanobind would replace the types of the main interpreter there, and
-/// Python itself refuses the module only in subinterpreters with their own lock.
-int require_main_interpreter(PyObject* /*module*/) {
-  if (PyInterpreterState_GetID(PyInterpreterState_Get()) == 0) return 0;
-  PyErr_SetString(PyExc_ImportError,
-                  "microtrace can't be imported in a subinterpreter; import it in the main "
-                  "interpreter, or use separate processes");
-  return -1;
+/// Python itself refuses the module only in subinterpreters with their own lock. It runs the
+/// module's steps again if the module was removed from sys.modules.
+int require_first_import(PyObject* /*module*/) {
+  if (PyInterpreterState_GetID(PyInterpreterState_Get()) != 0) {
+    PyErr_SetString(PyExc_ImportError,
+                    "microtrace can't be imported in a subinterpreter; import it in the main "
+                    "interpreter, or use separate processes");
+    return -1;
+  }
+  static bool is_imported = false;
+  if (is_imported) {
+    PyErr_SetString(PyExc_ImportError,
+                    "microtrace can't be imported again by this process after its removal from "
+                    "sys.modules; leave it there");
+    return -1;
+  }
+  is_imported = true;
+  return 0;
 }
 
 }  // namespace
@@ -65,7 +76,7 @@ extern "C" NB_EXPORT PyObject* PyInit__core() {
   PyObject* object = PyInit_unchecked_core();
   if (object == nullptr || !slots.empty()) return object;
   auto* definition = reinterpret_cast<PyModuleDef*>(object);
-  slots.push_back({Py_mod_exec, reinterpret_cast<void*>(require_main_interpreter)});
+  slots.push_back({Py_mod_exec, reinterpret_cast<void*>(require_first_import)});
   const PyModuleDef_Slot* slot = definition->m_slots;
   for (; slot->slot != 0; ++slot) slots.push_back(*slot);
   slots.push_back(*slot);

@@ -426,6 +426,12 @@ def test_interrupt():
     assert time.monotonic() - start < 30  # stopped before the end, which would take hours
 
 
+def test_names_of_arrays_are_completed():
+    picture = mt.render(mt.load(KNOT).prepare(), size=(8, 6), spp=1, aovs=["color", "depth"])
+    assert {"color", "depth", "save", "tonemap"} <= set(dir(picture))
+    assert picture._ipython_key_completions_() == ["color", "depth"]
+
+
 def end_while_a_thread_renders(ending: str) -> None:
     """Runs a program whose main thread executes `ending` while another one renders."""
     program = f"""
@@ -439,7 +445,9 @@ threading.Thread(target=render, daemon=True).start()
 assert started.wait(60)
 {ending}
 """
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    # Python warns of fork() in processes with threads from version 3.12 on.
+    command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", program]
+    result = subprocess.run(command, capture_output=True, text=True)
     assert result.returncode == 0, result.stderr
     assert result.stderr == ""
 

@@ -60,6 +60,8 @@ def test_misspelled_attributes_are_refused():
         material.roughness = 0.2
     with pytest.raises(AttributeError, match="PerspectiveCamera has no attribute 'xyz'$"):
         mt.PerspectiveCamera().xyz = 1
+    with pytest.raises(AttributeError, match="no attribute 'tmies'; did you mean 'times'"):
+        mt.Shutter(lambda time: (mt.Scene(), mt.look_at((0, 0, 5), (0, 0, 0))), 0, 1).tmies = 8
     material.roughness_factor = 0.2
 
     class Labeled(mt.Object):

@@ -84,7 +84,7 @@ def test_notebook_and_address():
         html = view._repr_html_()
         assert html.startswith("<iframe ") and view.url in html and 'height="500"' in html
         assert repr(view) == f"View({view.url})"
-    assert repr(view) == "View(closed)"
+    assert repr(view) == "View(closed)" and view._repr_html_() is None
     view.close()
     ended = triangle().view()
     send(ended, "POST", "end")
