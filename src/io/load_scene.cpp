@@ -12,7 +12,6 @@
 #include <microtrace/io.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <unistd.h>
@@ -24,10 +23,28 @@ namespace {
 
 constexpr std::string_view kGlbMagic = "glTF";
 
-/// File extensions of other common scene formats.
-constexpr std::array<std::string_view, 17> kForeignExtensions{
-    ".3ds", ".3mf", ".abc",  ".blend", ".dae",  ".fbx",  ".obj", ".off", ".ply",
-    ".stl", ".usd", ".usda", ".usdc",  ".usdz", ".vrml", ".wrl", ".x3d"};
+/// File extensions of other common formats, each with a space on both sides, and the remedy.
+struct ForeignFormats {
+  std::string_view extensions, remedy;
+};
+constexpr ForeignFormats kForeignFormats[] = {
+    {" .3ds .3mf .dae .fbx .ifc .obj .off .ply .stl .vrml .wrl .x .x3d ",
+     "convert the file, for example with Blender (File > Export > glTF 2.0) or with assimp (assimp "
+     "export FILE out.glb)"},
+    {" .abc .blend .usd .usda .usdc .usdz ",
+     "convert the file, for example with Blender (File > Export > glTF 2.0)"},
+    {" .iges .igs .step .stp ", "convert the file, for example with FreeCAD (File > Export)"},
+    {" .b3dm .cmpt .i3dm .pnts ", "extract its glTF, for example with 3d-tiles-tools"},
+    {" .splat .spz ", "Gaussian splats can't be drawn"}};
+
+/// The first bytes of files that are not scenes themselves.
+struct Wrapping {
+  std::string_view begin, message;
+};
+constexpr Wrapping kWrappings[] = {
+    {"\x1F\x8B", "is compressed by gzip; decompress it with gunzip"},
+    {"PK\3\4", "is a ZIP archive; unpack it"},
+    {"version https://git-lfs", "is a pointer of Git LFS instead of the file; run git lfs pull"}};
 
 /// Returns the text without leading white space and byte order mark.
 std::string_view behind_space(std::string_view text) {
@@ -37,20 +54,26 @@ std::string_view behind_space(std::string_view text) {
 /// Throws if the file has the extension of another format and its bytes are neither JSON nor GLB.
 void refuse_foreign_format(const std::string& extension, std::string_view first,
                            const std::string& name) {
-  if (std::ranges::find(kForeignExtensions, extension) == kForeignExtensions.end()) return;
   if (first.starts_with(kGlbMagic) || behind_space(first).starts_with('{')) return;
-  throw Error(ErrorKind::unsupported, name,
-              "microtrace reads JSON scenes and glTF (.gltf, .glb), not " + extension +
-                  "; convert the file, for example with Blender (File > Export > glTF 2.0) or with "
-                  "assimp (assimp export in" +
-                  extension + " out.glb)");
+  const std::string word = " " + extension + " ";
+  for (const auto& [extensions, remedy] : kForeignFormats) {
+    if (extensions.find(word) == std::string_view::npos) continue;
+    throw Error(ErrorKind::unsupported, name,
+                "microtrace reads JSON scenes and glTF (.gltf, .glb), not " + extension + "; " +
+                    std::string(remedy));
+  }
+}
+
+/// Throws if the bytes are those of a file that contains or replaces another one.
+void refuse_wrapping(std::string_view first, const std::string& name) {
+  for (const auto& [begin, message] : kWrappings) {
+    if (first.starts_with(begin)) throw Error(ErrorKind::unsupported, name, std::string(message));
+  }
 }
 
 /// Throws if no JSON text can start with these bytes. This avoids reading a long file that is not
 /// JSON to its end.
 void require_start_of_json(std::string_view first, const std::string& name) {
-  if (first.starts_with("\x1F\x8B"))
-    throw Error(ErrorKind::unsupported, name, "is compressed by gzip; decompress it with gunzip");
   const std::string_view text = behind_space(first);
   if (text.empty()) return;
   // Any other first character begins an invalid token that is complete within this chunk.
@@ -141,6 +164,7 @@ SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
   const std::string name = standard_input ? "(standard input)" : path.string();
   const auto inspect = [&](std::string_view first) {
     refuse_foreign_format(extension, first, name);
+    refuse_wrapping(first, name);
     if (extension != ".glb" && !first.starts_with(kGlbMagic)) require_start_of_json(first, name);
   };
   content_ = std::make_unique<Content>(path, std::move(options));

@@ -2,7 +2,6 @@
 
 #include <clocale>
 #include <cstring>
-#include <locale.h>  // newlocale
 
 namespace microtrace {
 

@@ -56,6 +56,10 @@ void show_bytes(std::string_view bytes, PrintableText& out) {
 
 }  // namespace
 
+std::size_t character_length(std::string_view text) {
+  return decode(text).length;
+}
+
 bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }

@@ -23,6 +23,10 @@ struct PrintableText {
 /// Returns `name` truncated to 60 bytes, made printable, and in double quotes.
 [[nodiscard]] std::string in_quotes(std::string_view name);
 
+/// Returns the length in bytes of the first UTF-8 character; 0 if `text` doesn't start with one.
+/// `text` must not be empty.
+[[nodiscard]] std::size_t character_length(std::string_view text);
+
 /// Returns true if c is a continuation byte of a UTF-8 character.
 [[nodiscard]] bool continues_character(char c);
 

@@ -1,6 +1,7 @@
 #include "modules/codecs/codecs.hpp"
 
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
 #include <jerror.h>
 #include <jpeglib.h>
@@ -51,9 +52,9 @@ void take_message(j_common_ptr info, int level) {
 void limit_scans(j_common_ptr info) {
   constexpr double kMaxScans = 500, kUsualScans = 32, kMaxBlocks = 4e8;
   auto* jpeg = reinterpret_cast<j_decompress_ptr>(info);
-  const double scans = jpeg->input_scan_number, blocks = double{(jpeg->image_width + 7) / 8} *
-                                                         ((jpeg->image_height + 7) / 8) *
-                                                         jpeg->num_components;
+  const double scans = jpeg->input_scan_number;
+  const std::uint64_t columns = (jpeg->image_width + 7) / 8, rows = (jpeg->image_height + 7) / 8;
+  const double blocks = static_cast<double>(columns * rows) * jpeg->num_components;
   if (scans <= kUsualScans || (scans <= kMaxScans && scans * blocks <= kMaxBlocks)) return;
   const auto* manager = reinterpret_cast<const ErrorManager*>(info->err);
   manager->sink->complain(manager->sink->context, "has too many scans for its size");

@@ -180,5 +180,23 @@ TEST(GltfContainer, BrokenFilesAreRefused) {
   }
 }
 
+// Tools copy names from older files.
+TEST(GltfContainer, BytesThatAreNotUtf8AreReadAsLatin1) {
+  AssetBuilder asset;
+  asset.add_object(
+      {{"attributes", {{"POSITION", asset.add_positions({Vec3(0), Vec3(1), Vec3(2)})}}}});
+  asset.json["nodes"][0]["name"] = "Gr@@e \u65e5";
+  std::string text = asset.embedded();
+  const std::size_t at = text.find("@@");
+  text[at] = '\xF6';
+  text[at + 1] = '\xDF';
+  const LoadedScene loaded = load(text);
+  EXPECT_EQ(loaded.scene.objects.at(0).name.str(), "Gr\u00F6\u00DFe \u65E5/mesh0");
+  EXPECT_THAT(texts(loaded.warnings), testing::ElementsAre(HasSubstr("read as Latin-1")));
+  // Other faults are reported as for files in UTF-8.
+  text[text.find("nodes") - 1] = ' ';
+  EXPECT_THROW(static_cast<void>(load(text)), Error);
+}
+
 }  // namespace
 }  // namespace microtrace::tests

@@ -222,7 +222,8 @@ std::set<std::string> documented(const std::string& heading, const std::string& 
   text = text.substr(text.find(heading));
   text.resize(text.find(next));
   const std::regex name(
-      "`((?:KHR_materials|AGI|CESIUM|EXT|FB|KHR|MSFT|VRMC)?_(?:[a-z]\\w*|RTC)|VRM)`");
+      "`((?:KHR_materials|AGI|BLENDER|CESIUM|EXT|FB|GODOT|KHR|MOZ|MSFT|OMI|VRMC)?_(?:[a-z]\\w*|RTC)"
+      "|VRM)`");
   std::set<std::string> result;
   for (std::sregex_iterator at(text.begin(), text.end(), name); at != std::sregex_iterator();
        ++at) {

@@ -59,6 +59,18 @@ const Survived kSurvived[] = {
     {"/nodes/0/name", "null", "/nodes/0/name", "is null"},
     {"/nodes/0/extensions", "null", "/nodes/0/extensions", "is null"},
     {"/nodes/0/extensions", R"({"X_a": null})", "/nodes/0/extensions/X_a", "is null"},
+    {"/accessors/0/max", "[null, 1, 1]", "/accessors/0/max/0", "the whole property is"},
+    {"/nodes/0/translation", "[0, null, 0]", "/nodes/0/translation/1", "the whole property is"},
+    {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[null, null, null, 1]",
+     "/materials/0/pbrMetallicRoughness/baseColorFactor/0", "the whole property is"},
+    {"/cameras", R"([{"type": "orthographic", "orthographic":
+                     {"xmag": 1, "ymag": 1, "znear": 0, "zfar": null}}])",
+     "/cameras/0/orthographic/zfar", "must be greater than znear; the camera is left out"},
+
+    // Empty accessors, and names of images
+    {"/accessors/0/count", "0", "/accessors/0/count", "must be at least 1"},
+    {"/accessors/1/count", "0", "/accessors/1/count", "must be at least 1"},
+    {"/images", R"([{"uri": "100% wood.png"}])", "/images/0/uri", "which is read as it is"},
 
     // Numbers out of range
     {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 1.00000012, 1, 1]",

@@ -144,7 +144,7 @@ TEST(GltfWarning, PrimitivesWithoutBufferDataAreNotDrawn) {
   EXPECT_THAT(texts(loaded.warnings),
               testing::UnorderedElementsAre(
                   HasSubstr("nothing to draw"), HasSubstr("/buffers/0: has no uri"),
-                  HasSubstr("/meshes/0/primitives/0: needs a buffer without data")));
+                  HasSubstr("/meshes/0/primitives/0: needs data that is not there")));
 }
 
 }  // namespace

@@ -80,8 +80,21 @@ TEST(GltfTexture, MissingFilesAreWhite) {
     EXPECT_EQ(loaded.scene.images.at(0), nullptr);
     asset.json["materials"] = Json::array({Json::object()});
   }
-  asset.json["images"][0] = {{"uri", "../none.png"}};
-  EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri") << "outside of the folder";
+}
+
+TEST(GltfTexture, FilesThatMayNotBeReadAreWhite) {
+  for (const auto& [uri, reason] : {std::pair{"../a.png", "leaves the asset's folder"},
+                                    {"/a.png", "is absolute"},
+                                    {"https://example.org/a.png", "has a scheme"},
+                                    {"C:\\a.png", "absolute path of Windows"}}) {
+    AssetBuilder asset = textured();
+    asset.json["images"] = {{{"uri", uri}}};
+    const LoadedScene loaded = load(asset);
+    EXPECT_THAT(texts(loaded.warnings),
+                Contains(testing::AllOf(HasSubstr("/images/0/uri: "), HasSubstr(reason),
+                                        HasSubstr("textures are white"))));
+    EXPECT_EQ(loaded.scene.images.at(0), nullptr);
+  }
 }
 
 TEST(GltfTexture, DamagedImagesAreWhite) {

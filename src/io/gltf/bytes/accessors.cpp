@@ -154,7 +154,7 @@ bool AccessorReader::has_data(std::size_t index) const {
   if (replaced_.contains(index)) return true;
   const Model::Accessor& accessor = model_.accessors[index];
   const auto& sparse = accessor.sparse;
-  return (!accessor.view || views_.bytes(*accessor.view)) &&
+  return !accessor.is_empty && (!accessor.view || views_.bytes(*accessor.view)) &&
          (!sparse || (views_.bytes(sparse->indices_view) && views_.bytes(sparse->values_view)));
 }
 

@@ -52,11 +52,9 @@ std::string decode_data_uri(const Asset& asset, const Element& uri) {
 
 std::string read_resource(const Asset& asset, const Element& uri, const ResourceFolders& folders,
                           const char* what, std::size_t max_bytes) {
-  const auto [relative, path, is_allowed] = resource_path(uri, folders);
-  if (!is_allowed) {
-    asset.fail(uri, in_quotes(uri.value->string()) + " " + relative.refusal +
-                        (relative.leads_out ? ", or allow its folder (--allow-path)" : ""));
-  }
+  if (const std::string refusal = refusal_of(uri, folders); !refusal.empty())
+    asset.fail(uri, refusal);
+  const std::filesystem::path path = resource_path(uri, folders).path;
   const std::string file = std::string(what) + " file " + in_quotes(path.string());
   note_unread_file(path);  // it may be missing
   std::error_code code;
@@ -74,6 +72,13 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   } catch (const Error& error) {
     asset.fail(uri, file + " " + error.diagnostic().message, error);
   }
+}
+
+std::string refusal_of(const Element& uri, const ResourceFolders& folders) {
+  const ResourcePath place = resource_path(uri, folders);
+  if (place.is_allowed) return {};
+  return in_quotes(uri.value->string()) + " " + place.relative.refusal +
+         (place.relative.leads_out ? ", or allow its folder (--allow-path)" : "");
 }
 
 bool is_missing_resource(const Element& uri, const ResourceFolders& folders) {

@@ -26,6 +26,9 @@ struct ResourceFolders {
                                         const ResourceFolders& folders, const char* what,
                                         std::size_t max_bytes);
 
+/// Returns the reason why the file that a URI names may not be read; empty if it may.
+[[nodiscard]] std::string refusal_of(const Element& uri, const ResourceFolders& folders);
+
 /// True if a URI names a file that may be read but does not exist.
 [[nodiscard]] bool is_missing_resource(const Element& uri, const ResourceFolders& folders);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -38,6 +39,12 @@ int hex_digit(char c) {
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   return colon != std::string_view::npos && colon < uri.find('/');
+}
+
+/// Returns true for a path such as C:\\folder\\file.
+bool is_windows_path(std::string_view uri) {
+  return uri.size() > 2 && uri[1] == ':' && (uri[2] == '\\' || uri[2] == '/') &&
+         std::isalpha(static_cast<unsigned char>(uri[0])) != 0;
 }
 
 }  // namespace
@@ -97,8 +104,11 @@ std::optional<std::string> decode_base64(std::string_view text) {
 
 RelativePath relative_path(std::string_view uri) {
   std::optional<std::string> path = decode_percent(uri);
-  if (!path) return {.refusal = "has a % without two hexadecimal digits; write %25 for %"};
+  const bool has_stray_percent = !path;
+  if (!path) path = uri;
   if (path->empty()) return {.refusal = "is empty"};
+  if (is_windows_path(uri))
+    return {.refusal = "is an absolute path of Windows; use a path relative to the asset"};
   if (has_scheme(uri))
     return {.refusal = "has a scheme; only data: URIs and relative paths are supported"};
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
@@ -112,7 +122,7 @@ RelativePath relative_path(std::string_view uri) {
   if (*plain.begin() == "..") {
     return {*path, "leaves the asset's folder by \"..\"; move the file into it", true};
   }
-  return {.path = plain.string()};
+  return {.path = plain.string(), .has_stray_percent = has_stray_percent};
 }
 
 }  // namespace microtrace::io::gltf

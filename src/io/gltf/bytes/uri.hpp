@@ -33,6 +33,7 @@ struct RelativePath {
   std::string path{};      ///< percent-decoded; contains "." and ".." only if rejected
   std::string refusal{};   ///< reason; empty if the path is accepted
   bool leads_out = false;  ///< rejected only because the path leaves, or may leave, the folder
+  bool has_stray_percent = false;  ///< a % is not followed by two digits, so all % are literal
 };
 
 /// Accepts relative paths (RFC 3986, section 4.2, path-noscheme). After "." and ".." are resolved

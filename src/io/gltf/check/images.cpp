@@ -15,10 +15,8 @@ void check_uri(Asset& asset, const Element& at) {
     asset.tolerate(at, "has a backslash, which is read as /");
   if (is_data_uri(uri)) {
     if (!split_data_uri(uri)) asset.fail(at, "is not a data URI of the form data:TYPE;base64,DATA");
-  } else if (const RelativePath path = relative_path(uri);
-             !path.refusal.empty() &&
-             !path.leads_out) {  // read_resource reports paths that lead out
-    asset.fail(at, path.refusal);
+  } else if (relative_path(uri).has_stray_percent) {
+    asset.tolerate(at, "has a % without two hexadecimal digits, which is read as it is");
   }
 }
 

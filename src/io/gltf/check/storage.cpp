@@ -34,7 +34,8 @@ void check_view(Asset& asset, const Element& at) {
   }
   if (stride->number() < 4 || stride->number() > 252 || std::fmod(stride->number(), 4) != 0)
     asset.tolerate(at.member("byteStride"), "must be a multiple of 4 between 4 and 252");
-  if (stride->number() > at.member("byteLength").value->number()) {
+  const double length = at.member("byteLength").value->number();
+  if (length > 0 && stride->number() > length) {
     asset.fail(at.member("byteStride"), "is greater than byteLength");
   }
   const JsonValue* target = at.value->find("target");
@@ -59,6 +60,8 @@ void check_accessor(Asset& asset, const Element& at) {
     return;  // check_schema has warned about an unknown type
   }
   check_bounds(asset, at);
+  if (at.value->find("count")->number() == 0)
+    asset.tolerate(at.member("count"), "must be at least 1; an empty accessor has no data");
   const JsonValue* component = at.value->find("componentType");
   const JsonValue* normalized = at.value->find("normalized");
   if (at.value->find("byteOffset") != nullptr && at.value->find("bufferView") == nullptr) {

@@ -136,6 +136,10 @@ Model::Sparse sparse_of(const JsonValue& json) {
 
 Model::Accessor accessor_of(const tinygltf::Accessor& accessor, const JsonValue& json) {
   if (is_unknown(json)) return {};
+  if (json.find("count")->number() == 0) {
+    return {
+        .type = type_of(accessor.type), .component_type = accessor.componentType, .is_empty = true};
+  }
   Model::Accessor result{.type = type_of(accessor.type),
                          .component_type = accessor.componentType,
                          .normalized = accessor.normalized,

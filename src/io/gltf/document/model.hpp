@@ -42,6 +42,7 @@ struct Model {
     int component_type = kUint8;  ///< OpenGL constant
     bool normalized = false;
     std::size_t count = 1;
+    bool is_empty = false;  ///< true if the file states a count of 0, for which `count` is 1
     std::optional<std::size_t> view{};  ///< if absent, all elements are zeros
     std::size_t offset = 0;             ///< from the start of the view
     std::optional<Sparse> sparse{};

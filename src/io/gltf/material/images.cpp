@@ -67,10 +67,14 @@ bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   return false;
 }
 
+bool has_file(const Element& image) {
+  const JsonValue* uri = image.value->find("uri");
+  return uri != nullptr && !is_data_uri(uri->string());
+}
+
 /// Returns the place of problems with an image's bytes: the name of its file, if it has one.
 Element place_of(const Element& image) {
-  const JsonValue* uri = image.value->find("uri");
-  return uri == nullptr || is_data_uri(uri->string()) ? image : image.member("uri");
+  return has_file(image) ? image.member("uri") : image;
 }
 
 class ImageLoader {
@@ -82,6 +86,10 @@ class ImageLoader {
   std::shared_ptr<const Image> load(const Element& at, ImageUse use,
                                     std::optional<ImageProblem>& problem) {
     using enum ImageProblem::Kind;
+    if (const std::string refusal = refusal_of_file(at); !refusal.empty()) {
+      problem = {limitation, at.member("uri"), refusal + "; "};
+      return nullptr;
+    }
     if (is_missing(at)) {
       problem = {violation, at.member("uri"), "names a file that does not exist; "};
       note_unread_resource(at.member("uri"), folders_);
@@ -126,10 +134,11 @@ class ImageLoader {
   }
 
  private:
-  [[nodiscard]] bool is_missing(const Element& at) const {
-    const JsonValue* uri = at.value->find("uri");
-    return uri != nullptr && !is_data_uri(uri->string()) &&
-           is_missing_resource(at.member("uri"), folders_);
+  [[nodiscard]] std::string refusal_of_file(const Element& image) const {
+    return has_file(image) ? refusal_of(image.member("uri"), folders_) : "";
+  }
+  [[nodiscard]] bool is_missing(const Element& image) const {
+    return has_file(image) && is_missing_resource(image.member("uri"), folders_);
   }
 
   std::optional<std::string_view> bytes_of(const Element& at, std::string& storage,

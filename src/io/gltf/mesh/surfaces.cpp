@@ -66,9 +66,10 @@ class SurfaceMaker {
     const bool is_draco = draco_.decode(at, primitive);
     if (!reader_.has_data(position->second) ||
         (primitive.indices && !reader_.has_data(*primitive.indices))) {
-      asset_.warn(at,
-                  "needs a buffer without data, which has no uri and is not the BIN chunk; "
-                  "nothing is drawn for it");
+      asset_.warn(
+          at,
+          "needs data that is not there: its buffer has no uri and is not the BIN chunk, or an "
+          "accessor is empty; nothing is drawn for it");
       return std::nullopt;
     }
     MemoryAccount indices(memory_account().budget());
@@ -162,7 +163,7 @@ class SurfaceMaker {
       vertex = kPrimitiveRestart;
       restarts = true;
     }
-    if (restarts) {
+    if (restarts && !asset_.uses("EXT_mesh_primitive_restart")) {
       asset_.tolerate(source,
                       "has the primitive restart value, which glTF 2.0 forbids; a new "
                       "primitive starts there");

@@ -40,7 +40,10 @@ class Maker {
       }
       count = size;
     }
-    if (!count) asset_.fail(attributes_, "must have at least one attribute");
+    if (!count) {
+      asset_.tolerate(attributes_, "has no attributes; there are no instances");
+      return std::nullopt;
+    }
     if (*count > most) {
       asset_.fail(attributes_, "brings the asset to more than 2^22 instances, the limit",
                   ErrorKind::limit);

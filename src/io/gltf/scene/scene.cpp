@@ -12,6 +12,7 @@
 #include "io/gltf/check/values/accessors.hpp"
 #include "io/gltf/check/values/data.hpp"
 #include "io/gltf/document/asset.hpp"
+#include "io/gltf/document/asset_json.hpp"
 #include "io/gltf/document/model.hpp"
 #include "io/gltf/document/variants.hpp"
 #include "io/gltf/material/images.hpp"
@@ -69,9 +70,8 @@ struct GltfFile::Content {
         clock(times),
         name(std::move(file_name)),
         container(gltf::open_container(bytes, name)),
-        json(container.json, container.is_glb ? name + " (JSON chunk)" : name, kMaxJsonValues,
-             RepeatedKeys::last_counts),
-        asset(json),
+        json(container.json, container.is_glb ? name + " (JSON chunk)" : name),
+        asset(json.document()),
         model(checked_model(options.variant)),
         tree(model),
         folders{.own = folder, .allowed = options.allowed_folders},
@@ -89,6 +89,8 @@ struct GltfFile::Content {
       asset.tolerate(asset.root(),
                      "chunks of the GLB file have lengths that are not multiples of 4");
     }
+    if (json.has_latin1())
+      asset.tolerate(asset.root(), "the JSON is not UTF-8; bytes that aren't are read as Latin-1");
     if (container.has_byte_order_mark)
       asset.tolerate(asset.root(), "the JSON starts with a byte order mark");
     if (container.has_zero_padding) {
@@ -204,7 +206,7 @@ struct GltfFile::Content {
   LoadClock clock;
   std::string name;
   gltf::Container container;
-  JsonDocument json;
+  gltf::AssetJson json;
   Asset asset;
   Model model;
   NodeTree tree;

@@ -2,6 +2,7 @@
 
 #include "base/text/printable.hpp"
 #include "io/gltf/check/schema/attribute_names.hpp"
+#include "io/gltf/check/schema/repeated_items.hpp"
 #include "io/gltf/check/schema/rule_text.hpp"
 #include "io/gltf/extensions/extensions.hpp"
 
@@ -33,7 +34,8 @@ class Checker {
       const auto rule = std::ranges::find(rules, member.key, &Rule::key);
       const bool is_known =
           rule != rules.end() || member.key == "extensions" || member.key == "name";
-      if (is_known && is_null(element) && !(rule != rules.end() && rule->required)) {
+      const bool is_required = rule != rules.end() && rule->required;
+      if (is_known && !is_required && is_null(element)) {
         dropped.push_back(member.key);
       } else if (rule != rules.end()) {
         if (!property(element, *rule)) dropped.push_back(member.key);
@@ -61,6 +63,17 @@ class Checker {
     return true;
   }
 
+  /// Does the same for an optional array with null among its items, which JavaScript writes for
+  /// NaN.
+  [[nodiscard]] bool has_null(const Element& at, const Rule& rule) const {
+    const std::vector<JsonValue>& items = at.value->items();
+    const auto null = std::ranges::find(items, Kind::null, &JsonValue::kind);
+    if (null == items.end() || rule.required) return false;
+    asset_.tolerate(at.item(static_cast<std::size_t>(null - items.begin())),
+                    "is null, which glTF 2.0 forbids; the whole property is treated as absent");
+    return true;
+  }
+
   /// Returns false if the value must be dropped.
   bool property(const Element& at, const Rule& rule) {
     switch (rule.form) {
@@ -77,14 +90,15 @@ class Checker {
         break;
       case Form::indices:
         array(at, rule, [&](const Element& item) { index(item, rule); });
-        different(at, &JsonValue::number);
+        tolerate_repeated(asset_, at, &JsonValue::number);
         break;
       case Form::numbers:
+        if (has_null(at, rule)) return false;
         array(at, rule, [&](const Element& item) { number(item, rule); });
         break;
       case Form::strings:
         array(at, rule, [&](const Element& item) { string(item, rule); });
-        different(at, &JsonValue::string);
+        tolerate_repeated(asset_, at, &JsonValue::string);
         break;
       case Form::object:
         object(at, rule.members, rule.place);
@@ -107,6 +121,12 @@ class Checker {
   }
 
   bool number(const Element& at, const Rule& rule) const {
+    // Readers handle numbers out of range.
+    if (at.value->kind() == Kind::null && rule.required && rule.repair == Repair::keep) {
+      asset_.tolerate(at, "is null, which glTF 2.0 forbids; " + text_of(rule.min) + " is used");
+      asset_.set(at, rule.min);
+      return true;
+    }
     const double number = at.value->number();
     const bool integral = std::trunc(number) == number && std::abs(number) <= 0x1p53;
     const bool integer = rule.form == Form::integer;
@@ -191,20 +211,6 @@ class Checker {
     }
     if (size == 0) asset_.tolerate(at, "is empty, which glTF 2.0 forbids; leave it out instead");
     for (std::size_t i = 0; i < size; ++i) check(at.item(i));
-  }
-
-  template <typename Key>
-  void different(const Element& at, Key (JsonValue::*key)() const) const {
-    std::vector<std::pair<std::decay_t<Key>, std::size_t>> sorted;
-    for (const JsonValue& item : at.value->items()) {
-      sorted.emplace_back((item.*key)(), sorted.size());
-    }
-    std::ranges::sort(sorted);
-    for (std::size_t i = 1; i < sorted.size(); ++i) {
-      if (sorted[i].first == sorted[i - 1].first) {
-        asset_.tolerate(at.item(sorted[i].second), "repeats an earlier item");
-      }
-    }
   }
 
   /// True for the attributes that extensions such as KHR_gaussian_splatting define, whose names

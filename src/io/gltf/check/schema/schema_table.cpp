@@ -56,7 +56,8 @@ constexpr Rule kAccessorRules[] = {
      .values = kComponentTypes,
      .repair = Repair::drop},
     {.key = "normalized", .form = Form::boolean},
-    {.key = "count", .form = Form::integer, .required = true, .min = 1},
+    // check_storage() reports 0.
+    {.key = "count", .form = Form::integer, .required = true, .min = 0},
     choice("type", kAccessorTypes, true),
     {.key = "max", .form = Form::numbers},
     {.key = "min", .form = Form::numbers},
