@@ -7,13 +7,15 @@
 
 #include <algorithm>
 #include <fcntl.h>
-#include <linux/openat2.h>
 #include <string>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+#if __has_include(<linux/openat2.h>)
+#include <linux/openat2.h>
+#endif
 
 namespace microtrace::io {
 namespace {
@@ -45,9 +47,11 @@ class Opened {
 };
 
 /// Returns true if the open file lies in one of the folders by a relative path, which needs no
-/// access to the folders above them. Links may not lead out of the folder.
-bool is_beneath(const std::vector<std::filesystem::path>& folders,
-                const std::filesystem::path& path, int descriptor) {
+/// access to the folders above them. Links may not lead out of the folder. Needs Linux 5.6.
+bool is_beneath([[maybe_unused]] const std::vector<std::filesystem::path>& folders,
+                [[maybe_unused]] const std::filesystem::path& path,
+                [[maybe_unused]] int descriptor) {
+#ifdef RESOLVE_BENEATH
   return std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
     const std::filesystem::path relative = path.lexically_relative(folder);
     if (relative.empty()) return false;
@@ -59,6 +63,9 @@ bool is_beneath(const std::vector<std::filesystem::path>& folders,
         ::syscall(SYS_openat2, base.number(), relative.c_str(), &how, sizeof how)));
     return again.equals(descriptor);
   });
+#else
+  return false;
+#endif
 }
 
 }  // namespace
