@@ -47,7 +47,7 @@ NB_MODULE(unchecked_core, module) {
 namespace {
 
 /// Fails in subinterpreters. nanobind would replace the types of the main interpreter there, and
-/// Python itself refuses the module only in subinterpreters with their own lock. It runs the
+/// Python itself refuses the module only in subinterpreters with their own lock. Python runs the
 /// module's steps again if the module was removed from sys.modules.
 int require_first_import(PyObject* /*module*/) {
   if (PyInterpreterState_GetID(PyInterpreterState_Get()) != 0) {

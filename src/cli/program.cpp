@@ -65,7 +65,7 @@ bool traces_rays(cli::Command command, const cli::Arguments& arguments) {
 
 /// Writes to the part of the stack that rays need. If the address space is limited (ulimit -v), the
 /// stack could no longer grow after scenes have taken the rest.
-void reach_stack() {
+[[gnu::noinline]] void reach_stack() {
   std::array<char, kStackSize / 2> part;
   volatile char* const begin = part.data();
   for (std::size_t at = 0; at < part.size(); at += 4096) begin[at] = 0;
@@ -85,7 +85,8 @@ void require_stack() {
 }
 
 /// Opens those of the descriptors 0 to 2 that are closed, for the opposite of their use, so that
-/// they still can't be used. Otherwise, the next file would get such a number, and output with it.
+/// they still can't be used. Otherwise, the next opened file would get that number, and receive the
+/// output.
 void reserve_standard_descriptors() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(number, F_GETFD) < 0)

@@ -167,7 +167,8 @@ void AtomicFile::open_temporary() {
     forget_unfinished_file(slot_);
     temporary_ = folder_of(target_) / random_name();
     slot_ = note_unfinished_file(temporary_.c_str());
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    descriptor_ =
+        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, existing ? 0600 : 0666);
   } while (descriptor_ < 0 && (errno == EEXIST || errno == EINTR));
   if (descriptor_ < 0) {
     const int error = errno;

@@ -25,14 +25,15 @@ bool copy_list(const std::filesystem::path& from, int descriptor) {
 }  // namespace
 
 void copy_access(const std::filesystem::path& from, const struct stat& status, int descriptor) {
-  constexpr mode_t kGroup = 0070;
   struct stat own {};
   if (::fstat(descriptor, &own) != 0) return;
   mode_t mode = status.st_mode & 0777;
   const bool has_group = own.st_gid == status.st_gid ||
                          ::fchown(descriptor, static_cast<uid_t>(-1), status.st_gid) == 0;
+  // Another group's members were among the others, and the group's own members are now.
+  if (!has_group) mode = (mode & 0700) | (mode & (mode >> 3) & 0007) * 011;
   // The list comes before the permissions, whose group part is the mask of a list.
-  if (!copy_list(from, descriptor) || !has_group) mode &= ~kGroup;
+  if (!copy_list(from, descriptor)) mode &= 0700;
   static_cast<void>(::fchmod(descriptor, mode));
   if (own.st_uid != status.st_uid)
     static_cast<void>(::fchown(descriptor, status.st_uid, static_cast<gid_t>(-1)));

@@ -5,8 +5,8 @@
 namespace microtrace::io {
 
 /// Gives a new file the owner, group, permissions and access control list of the file that it will
-/// replace. Where the system refuses the owner or group, and where file systems don't support any
-/// of these, the new file is accessible for fewer users, not for more.
+/// replace. Where the system refuses the group or the list, fewer users can access the new file,
+/// not more. The file should be accessible only to its owner before.
 void copy_access(const std::filesystem::path& from, const struct stat& status, int descriptor);
 
 /// Returns true if a folder lets this process replace the file, which the sticky bit can forbid.

@@ -77,6 +77,13 @@ class Files(ProgramTest):
         self.assert_refused(2, "asset/model.gltf", "-o", "a.ppm", "--spp", "1", "--checkpoint", "asset/data.bin",
                             says=["--checkpoint", "asset/data.bin"])
 
+    def test_outputs_over_images_that_may_not_be_read(self):
+        for uri in ["../outer.png", str(self.folder / "outer.png"), "../asset/../outer.png"]:
+            (self.folder / "outer.png").write_bytes(b"an image")
+            self.gltf["images"][0]["uri"] = uri
+            self.write_asset()
+            self.assert_refused(2, "asset/model.gltf", "-o", "outer.png", says=["--output", "outer.png"])
+
     def test_outputs_over_a_buffer_that_is_not_read(self):
         (self.asset / "fallback.ppm").write_bytes(b"data")
         buffers = list(self.gltf["buffers"])
@@ -138,6 +145,31 @@ class Files(ProgramTest):
         self.assertEqual(self.run_program(scene, "-o", picture).returncode, 0)
         self.assertNotEqual(picture.stat().st_ino, first)
         self.assertEqual(rights(), before)
+
+    def test_access_rights_that_cannot_be_kept(self):
+        """Nobody gets access to a replaced file who had none."""
+        if os.getuid() != 0:
+            self.skipTest("needs root")
+        scene, picture = self.folder / "scene.json", self.folder / "a.ppm"
+        shutil.copy(SOURCE / "scenes/perspective1.json", scene)
+        self.folder.chmod(0o777)
+        user = {"user": 4001, "group": 6001, "extra_groups": []}
+
+        def run(*arguments):
+            try:
+                return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, env=environment(), **user)
+            except PermissionError:
+                self.skipTest("other users can't run the program")
+
+        run("--version")
+        for before, after in [(0o640, 0o600), (0o604, 0o600), (0o606, 0o600), (0o666, 0o666), (0o664, 0o644), (0o660, 0o600)]:
+            picture.write_bytes(b"")
+            os.chown(picture, 4001, 5001)  # of a group to which the user doesn't belong
+            picture.chmod(before)
+            result = run(scene, "-o", picture)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            status = picture.stat()
+            self.assertEqual((status.st_uid, status.st_gid, oct(status.st_mode & 0o777)), (4001, 6001, oct(after)))
 
     def test_frames(self):
         shutil.move(self.asset / "wood.png", self.asset / "wood3.png")

@@ -70,7 +70,7 @@ std::vector<std::string> names_of(const Option& option) {
 
 std::vector<std::string> words_of(const Option& option, Command command) {
   const bool renders = command == Command::render || command == Command::view;
-  if (option.words == nullptr || (option.is_of_renders && !renders)) return {};
+  if (option.words == nullptr || (option.is_for_one_picture && !renders)) return {};
   return option.words();
 }
 

@@ -90,7 +90,7 @@ constexpr std::array kDisplayOptions{
                             "except data sets; for merge, that of the first samples; else 0",
            .samples = Samples::keep,
            .words = [] { return std::vector<std::string>{"auto"}; },
-           .is_of_renders = true,
+           .is_for_one_picture = true,
            .set = set_exposure},
     Option{
         .names = "--tonemap",

@@ -48,8 +48,8 @@ struct Option {
   Completion completion = Completion::none;
   /// Returns the named values; null if there are none.
   std::vector<std::string> (*words)() = nullptr;
-  bool takes_list = false;     ///< true if the value is a list of `words`, separated by commas
-  bool is_of_renders = false;  ///< true if only commands that render pictures accept the words
+  bool takes_list = false;          ///< true if the value is a list of `words`, separated by commas
+  bool is_for_one_picture = false;  ///< true if only `render` and `view` accept the words
   bool is_required = false;
   bool is_repeatable = false;
   std::string_view needs{};     ///< an option that must also be given

@@ -109,9 +109,9 @@ void require_readable_tiff(std::string_view file) {
   constexpr std::uint32_t kBitsPerSample = 258, kCompression = 259, kPhotometric = 262;
   const std::optional<std::uint32_t> bits = short_of_tiff(file, kBitsPerSample);
   if (!bits && short_of_tiff(file, kCompression).value_or(1) == 1)
-    throw std::runtime_error("it is a TIFF file of 1 bit per sample; save it as PNG");
+    throw std::runtime_error("it is a TIFF file of 1 bit per sample");
   if (bits == 16U && short_of_tiff(file, kPhotometric) == 0U)
-    throw std::runtime_error("it is a TIFF file of 16 bits in which white is 0; save it as PNG");
+    throw std::runtime_error("it is a TIFF file of 16 bits in which white is 0");
 }
 
 void decode(const void* bytes, std::size_t size, const std::string& extension,

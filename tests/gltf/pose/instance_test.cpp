@@ -159,5 +159,20 @@ TEST(GltfVisibility, HidesANodeAndItsDescendantsButNoCamera) {
   EXPECT_EQ(scene.scene.cameras.at(0).name, "node1");
 }
 
+TEST(GltfInstances, EmptyAccessorsMakeNone) {
+  for (const char* empty : {"TRANSLATION", "SCALE", "_ID"}) {
+    AssetBuilder asset = instanced_triangle();
+    Json attributes = {{"TRANSLATION", asset.add_numbers<float>("VEC3", {0, 0, 0, 1, 1, 1})},
+                       {"SCALE", asset.add_numbers<float>("VEC3", {1, 1, 1, 1, 1, 1})}};
+    attributes[empty] =
+        asset.add("accessors", {{"componentType", kFloat32}, {"count", 0}, {"type", "VEC3"}});
+    instantiate(asset, attributes);
+    const LoadedScene loaded = load(asset);
+    EXPECT_THAT(loaded.scene.objects, testing::IsEmpty()) << empty;
+    EXPECT_THAT(texts(loaded.warnings),
+                testing::Contains(testing::HasSubstr("there are no instances")));
+  }
+}
+
 }  // namespace
 }  // namespace microtrace::tests

@@ -148,6 +148,34 @@ TEST(GltfSkin, TheDeterminantOfTheNodeDefinesTheWinding) {
   EXPECT_EQ(by_node.normals, usual.normals);
 }
 
+// The bitangent is the cross product of normal and tangent, times w.
+TEST(GltfSkin, MirrorsTurnTheHandednessOfTangents) {
+  const auto handedness = [](double node, double joint) {
+    AssetBuilder asset = arm();
+    std::vector<float> tangents;
+    for (int i = 0; i < 6; ++i) tangents.insert(tangents.end(), {0, 1, 0, 1});
+    asset.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] =
+        asset.add_numbers<float>("VEC4", tangents);
+    asset.json["nodes"][0]["scale"] = {node, 1, 1};
+    asset.json["nodes"][1]["scale"] = {1, joint, 1};
+    return posed_mesh(load(asset)).tangents[0];
+  };
+  EXPECT_EQ(handedness(1, 1), Vec4(0, 1, 0, 1));
+  EXPECT_EQ(handedness(1, -1), Vec4(0, -1, 0, -1));
+  EXPECT_EQ(handedness(-1, 1), Vec4(0, 1, 0, -1));
+  EXPECT_EQ(handedness(-1, -1), Vec4(0, -1, 0, -1));
+}
+
+TEST(GltfSkin, EmptyInverseBindMatricesAreIdentities) {
+  AssetBuilder asset = arm(), without = arm();
+  without.json["skins"][0].erase("inverseBindMatrices");
+  const std::size_t matrices = asset.json["skins"][0]["inverseBindMatrices"].to_size();
+  asset.json["accessors"][matrices]["count"] = 0;
+  const LoadedScene loaded = load(asset);
+  EXPECT_EQ(posed_mesh(loaded).positions, posed_mesh(load(without)).positions);
+  EXPECT_THAT(texts(loaded.warnings), testing::Contains(HasSubstr("identity matrices are used")));
+}
+
 TEST(GltfSkin, ReadsJointsAndWeightsOfAllTypesAndSets) {
   EXPECT_EQ(posed_mesh(load(arm<std::uint16_t>())).positions, straight);
   AssetBuilder asset = arm();

@@ -54,7 +54,7 @@ class AnimationPlayer::Reader {
     const Element number = channel.member("sampler");
     const Element sampler = animation.member("samplers").item(index_from(*number.value));
     if (!has_data(sampler)) {
-      asset_.warn(channel, "needs a buffer that has no data; it is ignored");
+      asset_.warn(channel, "needs data that is not there; it is ignored");
       return std::nullopt;
     }
     if (target->is_pointed_at && !fits(sampler, *target, *width)) {

@@ -52,8 +52,7 @@ std::string decode_data_uri(const Asset& asset, const Element& uri) {
 
 std::string read_resource(const Asset& asset, const Element& uri, const ResourceFolders& folders,
                           const char* what, std::size_t max_bytes) {
-  if (const std::string refusal = refusal_of(uri, folders); !refusal.empty())
-    asset.fail(uri, refusal);
+  if (const auto refusal = refusal_of(uri, folders)) asset.fail(uri, refusal->reason);
   const std::filesystem::path path = resource_path(uri, folders).path;
   const std::string file = std::string(what) + " file " + in_quotes(path.string());
   note_unread_file(path);  // it may be missing
@@ -74,11 +73,12 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   }
 }
 
-std::string refusal_of(const Element& uri, const ResourceFolders& folders) {
+std::optional<Refusal> refusal_of(const Element& uri, const ResourceFolders& folders) {
   const ResourcePath place = resource_path(uri, folders);
-  if (place.is_allowed) return {};
-  return in_quotes(uri.value->string()) + " " + place.relative.refusal +
-         (place.relative.leads_out ? ", or allow its folder (--allow-path)" : "");
+  if (place.is_allowed) return std::nullopt;
+  return Refusal{.reason = in_quotes(uri.value->string()) + " " + place.relative.refusal +
+                           (place.relative.leads_out ? ", or allow its folder (--allow-path)" : ""),
+                 .is_violation = place.relative.is_invalid};
 }
 
 bool is_missing_resource(const Element& uri, const ResourceFolders& folders) {
@@ -89,7 +89,7 @@ bool is_missing_resource(const Element& uri, const ResourceFolders& folders) {
 
 void note_unread_resource(const Element& uri, const ResourceFolders& folders) {
   const RelativePath relative = relative_path(uri.value->string());
-  if (relative.refusal.empty()) note_unread_file(folders.own / relative.path);
+  if (relative.refusal.empty() || relative.leads_out) note_unread_file(folders.own / relative.path);
 }
 
 }  // namespace microtrace::io::gltf

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,14 @@ struct ResourceFolders {
                                         const ResourceFolders& folders, const char* what,
                                         std::size_t max_bytes);
 
-/// Returns the reason why the file that a URI names may not be read; empty if it may.
-[[nodiscard]] std::string refusal_of(const Element& uri, const ResourceFolders& folders);
+/// Why a file may not be read.
+struct Refusal {
+  std::string reason;
+  bool is_violation;  ///< of glTF 2.0
+};
+
+/// Returns why the file that a URI names may not be read; nothing if it may.
+[[nodiscard]] std::optional<Refusal> refusal_of(const Element& uri, const ResourceFolders& folders);
 
 /// True if a URI names a file that may be read but does not exist.
 [[nodiscard]] bool is_missing_resource(const Element& uri, const ResourceFolders& folders);

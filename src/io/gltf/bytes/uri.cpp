@@ -41,7 +41,7 @@ bool has_scheme(std::string_view uri) {
   return colon != std::string_view::npos && colon < uri.find('/');
 }
 
-/// Returns true for a path such as C:\\folder\\file.
+/// Returns true for a path such as C:\folder\file.
 bool is_windows_path(std::string_view uri) {
   return uri.size() > 2 && uri[1] == ':' && (uri[2] == '\\' || uri[2] == '/') &&
          std::isalpha(static_cast<unsigned char>(uri[0])) != 0;
@@ -106,13 +106,16 @@ RelativePath relative_path(std::string_view uri) {
   std::optional<std::string> path = decode_percent(uri);
   const bool has_stray_percent = !path;
   if (!path) path = uri;
-  if (path->empty()) return {.refusal = "is empty"};
+  if (path->empty()) return {.refusal = "is empty", .is_invalid = true};
   if (is_windows_path(uri))
-    return {.refusal = "is an absolute path of Windows; use a path relative to the asset"};
+    return {.refusal = "is an absolute path of Windows; use a path relative to the asset",
+            .is_invalid = true};
   if (has_scheme(uri))
     return {.refusal = "has a scheme; only data: URIs and relative paths are supported"};
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  if (std::ranges::any_of(*path, is_control)) return {.refusal = "has a control character"};
+  if (std::ranges::any_of(*path, is_control)) {
+    return {.refusal = "has a control character", .is_invalid = true};
+  }
   std::ranges::replace(*path, '\\', '/');
   if (path->starts_with('/')) {
     return {*path, "is absolute; use a path relative to the asset", true};

@@ -30,9 +30,10 @@ struct DataUri {
 
 /// A path made from a file URI, or the reason for rejecting it.
 struct RelativePath {
-  std::string path{};      ///< percent-decoded; contains "." and ".." only if rejected
-  std::string refusal{};   ///< reason; empty if the path is accepted
-  bool leads_out = false;  ///< rejected only because the path leaves, or may leave, the folder
+  std::string path{};       ///< percent-decoded; contains "." and ".." only if rejected
+  std::string refusal{};    ///< reason; empty if the path is accepted
+  bool leads_out = false;   ///< rejected only because the path leaves, or may leave, the folder
+  bool is_invalid = false;  ///< rejected because the text is no URI
   bool has_stray_percent = false;  ///< a % is not followed by two digits, so all % are literal
 };
 

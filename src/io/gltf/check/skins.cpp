@@ -37,7 +37,8 @@ void check_matrices(const Asset& asset, const Element& at, AccessorHeads& access
                              "; inverse bind matrices must be MAT4 of componentType 5126");
   }
   const std::size_t joints = at.member("joints").value->items().size();
-  if (head.count < static_cast<double>(joints)) {
+  // Without data, identity matrices are used.
+  if (head.count > 0 && head.count < static_cast<double>(joints)) {
     asset.fail(matrices, "has " + std::to_string(static_cast<std::size_t>(head.count)) +
                              " matrices for " + std::to_string(joints) + " joints");
   }

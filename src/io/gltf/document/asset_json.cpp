@@ -41,13 +41,9 @@ JsonDocument AssetJson::parsed(std::string_view text, const std::string& name) {
     if (error.kind() != ErrorKind::invalid_scene) throw;
     take_memory(2 * text.size(), "the JSON");
     converted_ = utf8_of(text);
-    if (converted_ == text) throw;
-    try {
-      return parse(converted_);
-    } catch (const Error&) {
-      // The first message is about the file as it is.
-    }
-    throw;
+    const bool is_utf16 = text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE");
+    if (converted_ == text || is_utf16) throw;
+    return parse(converted_);
   }
 }
 

@@ -86,8 +86,10 @@ class ImageLoader {
   std::shared_ptr<const Image> load(const Element& at, ImageUse use,
                                     std::optional<ImageProblem>& problem) {
     using enum ImageProblem::Kind;
-    if (const std::string refusal = refusal_of_file(at); !refusal.empty()) {
-      problem = {limitation, at.member("uri"), refusal + "; "};
+    if (const std::optional<Refusal> refusal = refusal_of_file(at)) {
+      problem = {refusal->is_violation ? violation : limitation, at.member("uri"),
+                 refusal->reason + "; "};
+      note_unread_resource(at.member("uri"), folders_);
       return nullptr;
     }
     if (is_missing(at)) {
@@ -134,8 +136,8 @@ class ImageLoader {
   }
 
  private:
-  [[nodiscard]] std::string refusal_of_file(const Element& image) const {
-    return has_file(image) ? refusal_of(image.member("uri"), folders_) : "";
+  [[nodiscard]] std::optional<Refusal> refusal_of_file(const Element& image) const {
+    return has_file(image) ? refusal_of(image.member("uri"), folders_) : std::nullopt;
   }
   [[nodiscard]] bool is_missing(const Element& image) const {
     return has_file(image) && is_missing_resource(image.member("uri"), folders_);

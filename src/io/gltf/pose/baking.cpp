@@ -38,9 +38,12 @@ Mesh baked_by(const Mesh& mesh, const Morphed& morphed, bool is_mirrored,
     }
     if (!mesh.tangents.empty()) {
       const DVec3 tangent = vector_of(mesh.tangents, morphed.tangents, i);
+      // Rigs that are mirrored as a whole mirror the vertices twice, but tangents have the
+      // handedness before that.
+      const bool is_turned = is_mirrored || placement.is_mirrored();
       const float handedness = mesh.tangents[i].w;
       result.tangents.emplace_back(Vec3(placement.direction(tangent)),
-                                   is_mirrored ? -handedness : handedness);
+                                   is_turned ? -handedness : handedness);
     }
   }
   if (is_mirrored) {

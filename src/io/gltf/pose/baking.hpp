@@ -15,8 +15,8 @@ namespace microtrace::io::gltf {
 /// direction becomes zero. Morphed attributes replace the mesh's own.
 [[nodiscard]] Mesh baked(const Mesh& mesh, const Morphed& morphed, const DMat4& world_from_mesh);
 
-/// Does the same with one transform per vertex. The transform of the node decides only about the
-/// winding and the handedness of tangents, also where joints mirror.
+/// Does the same with one transform per vertex. The node's transform defines only the winding (glTF
+/// 2.0, section 3.7.4), and with the vertex's transform, the handedness of tangents.
 [[nodiscard]] Mesh baked(const Mesh& mesh, const Morphed& morphed, const JointBlend& blend,
                          const DMat4& world_from_node);
 

@@ -26,10 +26,17 @@ class Maker {
   Maker(Asset& asset, const Model& model, AccessorReader& reader, const Element& at)
       : asset_(asset), model_(model), reader_(reader), attributes_(at.member("attributes")) {}
 
-  /// Makes the transforms of the instances. Returns nothing, with a warning, if an attribute's
-  /// buffer has no data.
+  /// Makes the transforms of the instances. Returns nothing, with a warning, if there are no
+  /// attributes, or an attribute has no data.
   std::optional<InstanceTransforms> make(std::size_t most) {
     std::optional<std::size_t> count;
+    for (const JsonMember& member : attributes_.value->members()) {
+      const std::size_t accessor = index(asset_, attributes_, member.key, model_.accessors.size());
+      if (reader_.has_data(accessor)) continue;
+      asset_.warn(attributes_.member(member.key),
+                  "needs data that is not there; there are no instances");
+      return std::nullopt;
+    }
     for (const JsonMember& member : attributes_.value->members()) {
       const std::size_t accessor = index(asset_, attributes_, member.key, model_.accessors.size());
       const std::size_t size = model_.accessors[accessor].count;
@@ -41,7 +48,7 @@ class Maker {
       count = size;
     }
     if (!count) {
-      asset_.tolerate(attributes_, "has no attributes; there are no instances");
+      asset_.warn(attributes_, "has no attributes; there are no instances");
       return std::nullopt;
     }
     if (*count > most) {
@@ -52,7 +59,6 @@ class Maker {
                               .translations = read<Vec3>("TRANSLATION", ElementType::vec3, false),
                               .rotations = read<glm::vec4>("ROTATION", ElementType::vec4, true),
                               .scales = read<Vec3>("SCALE", ElementType::vec3, false)};
-    if (lacks_data_) return std::nullopt;
     for (const glm::vec4& rotation : result.rotations) check(glm::dvec4(rotation));
     return result;
   }
@@ -72,11 +78,7 @@ class Maker {
                                       "normalized byte or short"
                                     : "must refer to an accessor of type VEC3 and float");
     }
-    if (reader_.has_data(accessor)) return reader_.read<Vector>(accessor);
-    asset_.warn(attributes_.member(name),
-                "needs a buffer that has no data; there are no instances");
-    lacks_data_ = true;
-    return {};
+    return reader_.read<Vector>(accessor);
   }
 
   void check(const glm::dvec4& quaternion) {
@@ -93,7 +95,6 @@ class Maker {
   const Model& model_;
   AccessorReader& reader_;
   Element attributes_;
-  bool lacks_data_ = false;
 };
 
 }  // namespace

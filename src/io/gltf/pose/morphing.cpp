@@ -51,7 +51,7 @@ Morphed Morpher::morphed(std::size_t mesh, const Surface& surface,
             .member(attribute);
       };
       if (!reader_.has_data(accessor)) {
-        asset_.warn(at(), "needs a buffer that has no data; it is not applied");
+        asset_.warn(at(), "needs data that is not there; it is not applied");
         continue;
       }
       displacements_ += std::max(surface.vertices.size(), kLeastDisplacements);

@@ -31,7 +31,7 @@ const std::vector<DMat4>& Skins::matrices(std::size_t skin) {
   if (!inverse_bind_matrices || result.empty()) return result;
   if (!reader_.has_data(*inverse_bind_matrices)) {
     asset_.warn(asset_.element("skins", skin).member("inverseBindMatrices"),
-                "need a buffer that has no data; identity matrices are used");
+                "need data that is not there; identity matrices are used");
     return result;
   }
   std::vector<std::uint32_t> numbers(result.size());

@@ -121,7 +121,7 @@ class Checker {
   }
 
   bool number(const Element& at, const Rule& rule) const {
-    // Readers handle numbers out of range.
+    // An unusable number, with which readers leave out the camera.
     if (at.value->kind() == Kind::null && rule.required && rule.repair == Repair::keep) {
       asset_.tolerate(at, "is null, which glTF 2.0 forbids; " + text_of(rule.min) + " is used");
       asset_.set(at, rule.min);
