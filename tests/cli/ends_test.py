@@ -41,11 +41,11 @@ class Ends(ProgramTest):
 
     # Messages
 
-    def draw_in_terminal(self, columns):
+    def draw_in_terminal(self, columns, samples):
         """Renders three pictures in a terminal. Returns what is written to it."""
         terminal, other_end = pty.openpty()
         fcntl.ioctl(other_end, termios.TIOCSWINSZ, struct.pack("4H", 25, columns, 0, 0))
-        command = [PROGRAM, SOURCE / "scenes/gltf/moving.glb", "--frames", "0:2", "--size", "200x150", "--spp", "400", "-o", "%d.ppm", "-t", "1"]
+        command = [PROGRAM, SOURCE / "scenes/gltf/moving.glb", "--frames", "0:2", "--size", "200x150", "--spp", str(samples), "-o", "%d.ppm", "-t", "1"]
         with subprocess.Popen(command, cwd=self.folder, stderr=other_end, env=environment(TERM="xterm")) as process:
             os.close(other_end)
             text = b""
@@ -60,13 +60,13 @@ class Ends(ProgramTest):
 
     def test_lines_of_the_progress_bar_fit_into_the_terminal(self):
         for columns in (80, 40, 20, 5):
-            drawn = [part.split(b"\x1b")[0] for part in self.draw_in_terminal(columns).split(b"\r") if b"\x1b[K" in part]
+            drawn = [part.split(b"\x1b")[0] for part in self.draw_in_terminal(columns, 120).split(b"\r") if b"\x1b[K" in part]
             self.assertGreater(len(drawn), 2)
             self.assertLess(max(map(len, drawn)), columns)
             self.assertEqual(any(b"[" in line for line in drawn), columns >= 40, drawn[:3])
 
     def test_messages_replace_the_progress_bar(self):
-        text = self.draw_in_terminal(80)
+        text = self.draw_in_terminal(80, 400)
         self.assertIn(b"picture 2 of 3", text)
         self.assertEqual(text.count(b"wrote "), 3)
         for line in text.split(b"\r"):
