@@ -1,8 +1,11 @@
 #include "modules/codecs/codecs.hpp"
 
+#include <array>
 #include <bit>
 #include <csetjmp>
+#include <cstddef>
 #include <png.h>
+#include <span>
 #include <zlib.h>
 
 namespace {
@@ -25,6 +28,27 @@ void write(png_structp png, png_bytep bytes, std::size_t size) {
 }
 
 void flush(png_structp) {}
+
+void write_chunk(png_structp png, const char* name, std::span<const png_byte> data) {
+  png_write_chunk(png, reinterpret_cast<png_const_bytep>(name), data.data(), data.size());
+}
+
+/// Writes the chunks of sRGB colors, which versions of libpng write in different orders.
+void write_color_space(png_structp png) {
+  // A gamma of 1/2.2, and x and y of white, red, green and blue, times 100000 (PNG specification,
+  // third edition, section 11.3.2.5).
+  constexpr png_uint_32 kGamma = 45455;
+  constexpr std::array<png_uint_32, 8> kPoints = {31270, 32900, 64000, 33000,
+                                                  30000, 60000, 15000, 6000};
+  constexpr std::array<png_byte, 1> kIntent = {PNG_sRGB_INTENT_RELATIVE};
+  std::array<png_byte, 4> gamma;
+  png_save_uint_32(gamma.data(), kGamma);
+  std::array<png_byte, 4 * kPoints.size()> points;
+  for (std::size_t i = 0; i < kPoints.size(); ++i) png_save_uint_32(&points[4 * i], kPoints[i]);
+  write_chunk(png, "gAMA", gamma);
+  write_chunk(png, "sRGB", kIntent);
+  write_chunk(png, "cHRM", points);
+}
 
 int color_type(std::uint32_t channels) {
   if (channels == 1) return PNG_COLOR_TYPE_GRAY;
@@ -49,7 +73,6 @@ int encode_png(const MicrotracePng& picture) {
     png_set_IHDR(png, info, picture.width, picture.height, static_cast<int>(picture.depth),
                  color_type(picture.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    if (picture.is_srgb != 0) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_RELATIVE);
     for (std::size_t i = 0; i < picture.text_count; ++i) {
       png_text text{};
       text.compression = PNG_TEXT_COMPRESSION_NONE;
@@ -67,6 +90,8 @@ int encode_png(const MicrotracePng& picture) {
       png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
       png_set_compression_level(png, 1);
     }
+    png_write_info_before_PLTE(png, info);
+    if (picture.is_srgb != 0) write_color_space(png);
     png_write_info(png, info);
     if (picture.depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
     for (std::uint32_t y = 0; y < picture.height; ++y) {
