@@ -41,8 +41,9 @@ JsonDocument AssetJson::parsed(std::string_view text, const std::string& name) {
     if (error.kind() != ErrorKind::invalid_scene) throw;
     take_memory(2 * text.size(), "the JSON");
     converted_ = utf8_of(text);
-    const bool is_utf16 = text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE");
-    if (converted_ == text || is_utf16) throw;
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    const bool is_object = first != std::string_view::npos && text[first] == '{';
+    if (!is_object || converted_ == text) throw;
     return parse(converted_);
   }
 }
