@@ -1,5 +1,6 @@
 #include "io/atomic_file.hpp"
 
+#include "base/system/descriptor.hpp"
 #include "base/system/error_text.hpp"
 #include "io/file.hpp"
 #include "io/file_access.hpp"
@@ -10,7 +11,6 @@
 
 #include <cerrno>
 #include <charconv>
-#include <cstdint>
 #include <fcntl.h>
 #include <optional>
 #include <poll.h>
@@ -80,6 +80,11 @@ bool is_stream_resolved(const fs::path& target) {
                                        !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
 }
 
+void require_writable(const fs::path& named, const fs::path& target) {
+  if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+    fail_to_write(named, errno, "allow writing to it, or name another file");
+}
+
 /// Checks that a stream can be written to.
 void check_stream(const fs::path& named, const fs::path& target) {
   if (const std::optional<int> number = descriptor_number(target)) {
@@ -90,8 +95,7 @@ void check_stream(const fs::path& named, const fs::path& target) {
   struct stat status {};
   if (::stat(target.c_str(), &status) == 0 && S_ISSOCK(status.st_mode))
     fail_to_write(named, ENXIO, "name a file");
-  if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
-    fail_to_write(named, errno, "allow writing to it, or name another file");
+  require_writable(named, target);
 }
 
 /// Checks that the target can be replaced. Returns the status of the existing file, if there is
@@ -102,9 +106,7 @@ std::optional<struct stat> check_resolved(const fs::path& named, const fs::path&
   std::optional<struct stat> existing;
   if (::stat(target.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) fail_to_write(named, EISDIR, "name a file in that folder");
-    if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) {
-      fail_to_write(named, errno, "allow writing to it, or name another file");
-    }
+    require_writable(named, target);
     if (!may_replace(folder_of(target), status))
       fail_to_write(named, EPERM, "another user owns the file, so name another file");
     existing = status;
@@ -230,8 +232,8 @@ bool AtomicFile::commit_new() {
 
 bool AtomicFile::commit_over(const FileState& known) {
   // Another process that replaces the same file waits, and then finds another file there.
-  const int locked = ::open(target_.c_str(), O_RDWR | O_CLOEXEC);
-  while (locked >= 0 && ::flock(locked, LOCK_EX) != 0 && errno == EINTR) {
+  const Descriptor locked(::open(target_.c_str(), O_RDWR | O_CLOEXEC));
+  while (locked.number() >= 0 && ::flock(locked.number(), LOCK_EX) != 0 && errno == EINTR) {
   }
   const FileState now = state_of(target_);
   bool is_done = now == known;
@@ -241,7 +243,6 @@ bool AtomicFile::commit_over(const FileState& known) {
     commit();
   else
     discard();
-  if (locked >= 0) ::close(locked);
   return is_done;
 }
 

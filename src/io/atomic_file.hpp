@@ -13,10 +13,9 @@ namespace microtrace::io {
 /// An output file that is being written. It is a temporary file in the target's folder until
 /// commit() renames it. The destructor removes an uncommitted file. If the target is a symbolic
 /// link, the file that it leads to is replaced. The new file gets the access rights of the old one
-/// (see copy_access). Devices, pipes, "-" and
-/// the names of open descriptors (/dev/stdout, /dev/fd/N) can't be replaced and are written
-/// directly. All members except the destructor throw Error(io) with the path and the system's
-/// reason.
+/// (see copy_access). Devices, pipes, "-" and the names of open descriptors (/dev/stdout,
+/// /dev/fd/N) can't be replaced and are written directly. All members except the destructor throw
+/// Error(io) with the path and the system's reason.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);

@@ -1,5 +1,6 @@
 #include "io/confined_reads.hpp"
 
+#include "base/system/descriptor.hpp"
 #include "base/system/error_text.hpp"
 #include "base/text/printable.hpp"
 
@@ -23,45 +24,27 @@ namespace {
 /// The innermost ConfinedReads of this thread, or null.
 thread_local const ConfinedReads* confinement = nullptr;
 
-/// Closes a descriptor that may be invalid.
-class Opened {
- public:
-  explicit Opened(int number) : number_(number) {}
-  Opened(const Opened&) = delete;
-  Opened& operator=(const Opened&) = delete;
-  ~Opened() {
-    if (number_ >= 0) ::close(number_);
-  }
-  [[nodiscard]] int number() const { return number_; }
+bool are_same(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
 
-  /// True if both are the same file.
-  [[nodiscard]] bool equals(int descriptor) const {
-    struct stat a {};
-    struct stat b {};
-    return ::fstat(number_, &a) == 0 && ::fstat(descriptor, &b) == 0 && a.st_dev == b.st_dev &&
-           a.st_ino == b.st_ino;
-  }
-
- private:
-  int number_;
-};
-
-/// Returns true if the open file lies in one of the folders by a relative path, which needs no
-/// access to the folders above them. Links may not lead out of the folder. Needs Linux 5.6.
+/// Returns true if the path leads to the opened file from one of the folders, which needs no access
+/// to the folders above them. Links may not lead out of the folder. Needs Linux 5.6.
 bool is_beneath([[maybe_unused]] const std::vector<std::filesystem::path>& folders,
                 [[maybe_unused]] const std::filesystem::path& path,
-                [[maybe_unused]] int descriptor) {
+                [[maybe_unused]] const struct stat& opened) {
 #ifdef RESOLVE_BENEATH
   return std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
     const std::filesystem::path relative = path.lexically_relative(folder);
     if (relative.empty()) return false;
-    const Opened base(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    const Descriptor base(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
     open_how how{};
     how.flags = O_PATH | O_CLOEXEC;
     how.resolve = RESOLVE_BENEATH;
-    const Opened again(static_cast<int>(
+    const Descriptor again(static_cast<int>(
         ::syscall(SYS_openat2, base.number(), relative.c_str(), &how, sizeof how)));
-    return again.equals(descriptor);
+    struct stat found {};
+    return ::fstat(again.number(), &found) == 0 && are_same(found, opened);
   });
 #else
   return false;
@@ -99,7 +82,10 @@ void ConfinedReads::require(const std::filesystem::path& path, std::optional<int
   std::error_code code;
   const std::filesystem::path real = std::filesystem::canonical(path, code);
   if (code && !descriptor) return;  // the attempt to open the file will report the reason
-  if (code && !is_beneath(confinement->folders_, path, *descriptor))
+  struct stat opened {};
+  struct stat checked {};
+  const bool is_known = descriptor && ::fstat(*descriptor, &opened) == 0;
+  if (code && !(is_known && is_beneath(confinement->folders_, path, opened)))
     throw Error(ErrorKind::io, path.string(),
                 "can't be compared with the scene's folder: " + error_text(code.value()));
   if (code) return;
@@ -109,8 +95,7 @@ void ConfinedReads::require(const std::filesystem::path& path, std::optional<int
                     "; allow the folder of that file (--allow-path)");
   }
   if (!descriptor) return;
-  const Opened checked(::open(real.c_str(), O_PATH | O_CLOEXEC));
-  if (!checked.equals(*descriptor))
+  if (!is_known || ::stat(real.c_str(), &checked) != 0 || !are_same(checked, opened))
     throw Error(ErrorKind::io, path.string(), "was replaced while it was opened; try again");
 }
 

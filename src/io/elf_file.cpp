@@ -1,5 +1,8 @@
 #include "io/elf_file.hpp"
 
+#include "base/system/descriptor.hpp"
+#include "base/system/error_text.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
@@ -8,7 +11,6 @@
 #include <fcntl.h>
 #include <link.h>
 #include <sys/stat.h>
-#include <system_error>
 #include <unistd.h>
 #include <vector>
 
@@ -25,19 +27,14 @@ class File {
   explicit File(const std::filesystem::path& path)
       : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     struct stat status {};
-    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
-      complaint_ = std::generic_category().message(errno);
+    if (descriptor_.number() < 0 || ::fstat(descriptor_.number(), &status) != 0) {
+      complaint_ = error_text(errno);
     } else if (!S_ISREG(status.st_mode)) {
       complaint_ = "it is not a regular file";
     } else {
       size_ = static_cast<std::uint64_t>(status.st_size);
     }
   }
-  ~File() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
 
   [[nodiscard]] const std::string& complaint() const { return complaint_; }
 
@@ -50,14 +47,14 @@ class File {
   void read(std::uint64_t offset, std::vector<T>& items) const {
     const std::size_t size = items.size() * sizeof(T);
     const auto is_read = [&] {
-      return static_cast<std::size_t>(
-                 ::pread(descriptor_, items.data(), size, static_cast<off_t>(offset))) == size;
+      return static_cast<std::size_t>(::pread(descriptor_.number(), items.data(), size,
+                                              static_cast<off_t>(offset))) == size;
     };
     if (!holds(offset, size) || !is_read()) items.clear();
   }
 
  private:
-  int descriptor_;
+  Descriptor descriptor_;
   std::uint64_t size_ = 0;
   std::string complaint_;
 };

@@ -1,6 +1,7 @@
 #include "io/file.hpp"
 
 #include "base/memory_account.hpp"
+#include "base/system/descriptor.hpp"
 #include "base/system/error_text.hpp"
 #include "io/confined_reads.hpp"
 
@@ -50,18 +51,6 @@ constexpr std::size_t kChunk = std::size_t{64} * 1024;
   message.append(std::to_string(limit)).append(" bytes, the limit; split it");
   throw Error(ErrorKind::limit, name, message);
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { ::close(number_); }
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 Descriptor open_file(const std::filesystem::path& path, int flags) {
   ConfinedReads::require(path, std::nullopt);

@@ -200,13 +200,18 @@ TEST(GltfAnimationPointer, FieldOfViewStaysBelowPi) {
   EXPECT_LT(fov(2), std::numbers::pi);
 }
 
-TEST(GltfAnimationPointer, LightsChange) {
+AssetBuilder with_spot_light(double inner_angle) {
   AssetBuilder asset = cube();
   use(asset, "KHR_lights_punctual");
   asset.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.75}}}}};
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", inner_angle}, {"outerConeAngle", 0.75}}}}};
   asset.json["scenes"][0]["nodes"].push_back(
       asset.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}));
+  return asset;
+}
+
+TEST(GltfAnimationPointer, LightsChange) {
+  AssetBuilder asset = with_spot_light(0.5);
   const std::string light = "/extensions/KHR_lights_punctual/lights/0/";
   point(asset, (light + "color").c_str(), "VEC3", {1, 1, 1, 0, 0.5F, 1});
   point(asset, (light + "intensity").c_str(), "SCALAR", {-10, 30});
@@ -229,12 +234,7 @@ TEST(GltfAnimationPointer, LightsChange) {
 
 // Blender 5.0 writes a dot instead of the second slash.
 TEST(GltfAnimationPointer, AcceptsTheAnglesOfBlender) {
-  AssetBuilder asset = cube();
-  use(asset, "KHR_lights_punctual");
-  asset.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.125}, {"outerConeAngle", 0.75}}}}};
-  asset.json["scenes"][0]["nodes"].push_back(
-      asset.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}));
+  AssetBuilder asset = with_spot_light(0.125);
   const char* pointer = "/extensions/KHR_lights_punctual/lights/0/spot.outerConeAngle";
   point(asset, pointer, "SCALAR", {0.25F, 1.25F});
   const LoadedScene loaded = load(asset, {.time = 1});

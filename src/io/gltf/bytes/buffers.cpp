@@ -92,8 +92,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
       if (buffers[i].find("uri") != nullptr) note_unread_resource(uri, folders);
       continue;
     } else if (buffers[i].find("uri") != nullptr) {
-      if (!is_data_uri(uri.value->string()) && relative_path(uri.value->string()).has_stray_percent)
-        asset.tolerate(uri, "has a % without two hexadecimal digits, which is read as it is");
+      tolerate_stray_percent(asset, uri);
       buffer.storage = is_data_uri(uri.value->string())
                            ? decode(asset, uri)
                            : read_resource(asset, uri, folders, "buffer", kMaxBufferBytes);

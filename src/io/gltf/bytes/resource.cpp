@@ -28,6 +28,14 @@ ResourcePath resource_path(const Element& uri, const ResourceFolders& folders) {
   return {.relative = std::move(relative), .path = std::move(path), .is_allowed = is_allowed};
 }
 
+/// Returns why the file may not be read; nothing if it may.
+std::optional<Refusal> refusal_of(const Element& uri, const ResourcePath& place) {
+  if (place.is_allowed) return std::nullopt;
+  return Refusal{.reason = in_quotes(uri.value->string()) + " " + place.relative.refusal +
+                           (place.relative.leads_out ? ", or allow its folder (--allow-path)" : ""),
+                 .is_violation = place.relative.is_invalid};
+}
+
 std::optional<std::string> decoded(const DataUri& data) {
   // RFC 2397 allows escaped characters in base64 too.
   const bool is_escaped = !data.is_base64 || data.data.find('%') != std::string_view::npos;
@@ -52,8 +60,9 @@ std::string decode_data_uri(const Asset& asset, const Element& uri) {
 
 std::string read_resource(const Asset& asset, const Element& uri, const ResourceFolders& folders,
                           const char* what, std::size_t max_bytes) {
-  if (const auto refusal = refusal_of(uri, folders)) asset.fail(uri, refusal->reason);
-  const std::filesystem::path path = resource_path(uri, folders).path;
+  const ResourcePath place = resource_path(uri, folders);
+  if (const auto refusal = refusal_of(uri, place)) asset.fail(uri, refusal->reason);
+  const std::filesystem::path& path = place.path;
   const std::string file = std::string(what) + " file " + in_quotes(path.string());
   note_unread_file(path);  // it may be missing
   std::error_code code;
@@ -74,17 +83,19 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
 }
 
 std::optional<Refusal> refusal_of(const Element& uri, const ResourceFolders& folders) {
-  const ResourcePath place = resource_path(uri, folders);
-  if (place.is_allowed) return std::nullopt;
-  return Refusal{.reason = in_quotes(uri.value->string()) + " " + place.relative.refusal +
-                           (place.relative.leads_out ? ", or allow its folder (--allow-path)" : ""),
-                 .is_violation = place.relative.is_invalid};
+  return refusal_of(uri, resource_path(uri, folders));
 }
 
 bool is_missing_resource(const Element& uri, const ResourceFolders& folders) {
   const ResourcePath place = resource_path(uri, folders);
   std::error_code code;
   return place.is_allowed && !std::filesystem::exists(place.path, code) && !code;
+}
+
+void tolerate_stray_percent(Asset& asset, const Element& uri) {
+  const std::string& text = uri.value->string();
+  if (!is_data_uri(text) && relative_path(text).has_stray_percent)
+    asset.tolerate(uri, "has a % without two hexadecimal digits, which is read as it is");
 }
 
 void note_unread_resource(const Element& uri, const ResourceFolders& folders) {

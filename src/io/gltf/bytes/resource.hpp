@@ -39,6 +39,9 @@ struct Refusal {
 /// True if a URI names a file that may be read but does not exist.
 [[nodiscard]] bool is_missing_resource(const Element& uri, const ResourceFolders& folders);
 
+/// Warns if a % in the name of a file is not percent-encoding.
+void tolerate_stray_percent(Asset& asset, const Element& uri);
+
 /// Records a file that a URI names but that is not read, so that outputs don't overwrite this file
 /// either.
 void note_unread_resource(const Element& uri, const ResourceFolders& folders);

@@ -1,3 +1,4 @@
+#include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/document/properties.hpp"
@@ -13,11 +14,9 @@ void check_uri(Asset& asset, const Element& at) {
   const std::string& uri = at.value->string();
   if (!is_data_uri(uri) && uri.find('\\') != std::string::npos)
     asset.tolerate(at, "has a backslash, which is read as /");
-  if (is_data_uri(uri)) {
-    if (!split_data_uri(uri)) asset.fail(at, "is not a data URI of the form data:TYPE;base64,DATA");
-  } else if (relative_path(uri).has_stray_percent) {
-    asset.tolerate(at, "has a % without two hexadecimal digits, which is read as it is");
-  }
+  if (is_data_uri(uri) && !split_data_uri(uri))
+    asset.fail(at, "is not a data URI of the form data:TYPE;base64,DATA");
+  tolerate_stray_percent(asset, at);
 }
 
 void check_media_type(Asset& asset, const Element& image) {

@@ -13,7 +13,6 @@ class AssetJson {
   /// Throws Error (invalid_scene, limit), as JsonDocument does. `text` must outlive this object.
   AssetJson(std::string_view text, const std::string& name);
 
-  [[nodiscard]] const JsonDocument& document() const { return document_; }
   [[nodiscard]] JsonDocument& document() { return document_; }
   [[nodiscard]] bool has_latin1() const { return !converted_.empty(); }
 
