@@ -1,4 +1,9 @@
 # Compiler flags are set only here. Every target of the project links microtrace_flags.
+if((CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
+   OR (CMAKE_CXX_COMPILER_ID STREQUAL Clang AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14))
+  message(FATAL_ERROR "microtrace needs GCC 12 or Clang 14 or later, and this is ${CMAKE_CXX_COMPILER_ID} "
+                      "${CMAKE_CXX_COMPILER_VERSION}: choose another compiler, as by -DCMAKE_CXX_COMPILER=g++-12")
+endif()
 add_library(microtrace_flags INTERFACE)
 target_compile_features(microtrace_flags INTERFACE cxx_std_20)
 if(PROJECT_IS_TOP_LEVEL)

@@ -35,6 +35,7 @@ RUN_ELSEWHERE = [
     r"cmake --workflow --preset \w+$|scripts/\w+( \w+)*$",  # see test_scripts_and_presets_exist
     r"ctest -L [\w |]+$",
     r"scripts/setup python && python3 -m venv venv && venv/bin/pip install \.$",  # scripts/bare python
+    r"python3 -m venv tools && |cmake --preset release -DCMAKE_CXX_COMPILER=",  # scripts/bare older
     r"import microtrace|\w+ = (mt|scene)\.|mt\.",  # python.tests
     r"(python3 )?(tests|bench)/[\w/]+\.(py|sh|txt)( .*)?$",  # see test_scripts_and_presets_exist
     r"(array=\$\(|SHARDS=\d+ )?sbatch .*|kubectl apply -f clusters/kubernetes/dataset.yaml$",  # slurm, python.tests

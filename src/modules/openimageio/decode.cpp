@@ -156,11 +156,11 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   const TypeDesc type = type_of(colors.number);
   const std::size_t pixel = type.size() * colors.channels;
   std::vector<char> stored(orientation.is_upright() ? 0 : pixel * width * height);
-  // For TIFF files that were cut off, only has_error() tells of the missing lines.
-  if (!reader->read_image(0, 0, first, first + count, type,
-                          stored.empty() ? samples : stored.data()) ||
-      reader->has_error())
-    throw complaint(reader->geterror());
+  const bool is_read = reader->read_image(0, 0, first, first + count, type,
+                                          stored.empty() ? samples : stored.data());
+  // For TIFF files that were cut off, only the error tells of the missing lines.
+  const std::string error = reader->geterror();
+  if (!is_read || !error.empty()) throw complaint(error);
   if (!stored.empty()) orientation.turn(stored.data(), static_cast<char*>(samples), pixel);
   reader->close();
 }
