@@ -35,8 +35,10 @@ void copy_access(const std::filesystem::path& from, const struct stat& status, i
   // The list comes before the permissions, whose group part is the mask of a list.
   if (!copy_list(from, descriptor)) mode &= 0700;
   static_cast<void>(::fchmod(descriptor, mode));
-  if (own.st_uid != status.st_uid)
-    static_cast<void>(::fchown(descriptor, status.st_uid, static_cast<gid_t>(-1)));
+  // Only root can give files away. GCC warns of an unused result in spite of static_cast<void>.
+  if (own.st_uid != status.st_uid &&
+      ::fchown(descriptor, status.st_uid, static_cast<gid_t>(-1)) != 0)
+    return;
 }
 
 bool may_replace(const std::filesystem::path& folder, const struct stat& file) {

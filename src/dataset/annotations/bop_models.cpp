@@ -79,23 +79,20 @@ class PointTree {
       }
       return;
     }
-    std::array<std::pair<std::size_t, std::size_t>, 4> pairs;
-    std::size_t count = 0;
     if (a == b) {
-      for (const auto& pair :
-           {std::pair(p.left, p.right), std::pair(p.left, p.left), std::pair(p.right, p.right)})
-        pairs[count++] = pair;
-    } else {
-      const bool splits_a = q.left == 0 || (p.left != 0 && p.last - p.first >= q.last - q.first);
-      const Node& split = splits_a ? p : q;
-      for (const std::size_t child : {split.left, split.right})
-        pairs[count++] = splits_a ? std::pair(child, b) : std::pair(a, child);
+      search(p.left, p.right);
+      search(p.left, p.left);
+      search(p.right, p.right);
+      return;
     }
-    std::sort(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(count),
-              [&](const auto& x, const auto& y) {
-                return bound(x.first, x.second) > bound(y.first, y.second);
-              });
-    for (std::size_t k = 0; k < count; ++k) search(pairs[k].first, pairs[k].second);
+    const bool splits_a = q.left == 0 || (p.left != 0 && p.last - p.first >= q.last - q.first);
+    const Node& split = splits_a ? p : q;
+    const auto bound_of = [&](std::size_t child) {
+      return splits_a ? bound(child, b) : bound(a, child);
+    };
+    std::array children{split.left, split.right};
+    if (bound_of(children[0]) < bound_of(children[1])) std::swap(children[0], children[1]);
+    for (const std::size_t child : children) splits_a ? search(child, b) : search(a, child);
   }
 
   std::vector<DVec3> points_;

@@ -3,8 +3,10 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstdio>
-#include <jerror.h>
 #include <jpeglib.h>
+
+// The numbers of the messages depend on the version that jpeglib.h defines.
+#include <jerror.h>
 
 // Decoding gives the same samples on every machine. libjpeg-turbo's slow integer transform
 // (JDCT_ISLOW), triangular upsampling and color conversion use integer arithmetic, and their SIMD

@@ -50,8 +50,9 @@ inline auto barycentrics_of(const TriangleCorners<N>& t, const Doubles3<N>& o,
   const D determinant = dot(e1, across), zero{};
   const D size1 = magnitudes_sum(e1), size2 = magnitudes_sum(e2), size_d = magnitudes_sum(d);
   const D far_terms = magnitudes_sum(from_a) * larger_of(size1, size2) * size_d;
-  const auto exists = (magnitude(determinant) > 0x1p-24 * (size1 * size2 * size_d)) &
-                      (magnitude(determinant) > 0x1p-38 * far_terms);
+  const auto is_wide = magnitude(determinant) > 0x1p-24 * (size1 * size2 * size_d);
+  const auto is_near = magnitude(determinant) > 0x1p-38 * far_terms;
+  const auto exists = is_wide & is_near;
   // The hit is inside the triangle, but rounding can give slightly negative weights.
   const D inverse = 1 / determinant;
   const D v = larger_of(D(dot(from_a, across) * inverse), zero);
