@@ -34,7 +34,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   target_compile_options(microtrace_flags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 elseif(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # Disables false warnings on references into an object that a function got with a temporary std::string_view.
-  target_compile_options(microtrace_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-dangling-reference>)
+  target_compile_options(microtrace_flags INTERFACE -Wno-dangling-reference)
 endif()
 # For code that runs once, such as that which reads the command line: less than half the size.
 add_library(microtrace_small_code INTERFACE)
