@@ -94,13 +94,19 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
   // Requests one byte more, to detect a file that is longer than the limit or than its reported
   // size.
   std::string bytes;
-  bool ended = fill(descriptor, name, bytes, std::min(kChunk, limit + 1));
+  const std::size_t first = std::min(kChunk, limit + 1);
+  bool ended = fill(descriptor, name, bytes, first);
   if (inspect) inspect(bytes);
   if (!ended && claimed > bytes.size()) ended = fill(descriptor, name, bytes, claimed + 1);
   while (!ended && bytes.size() <= limit) {
     ended = fill(descriptor, name, bytes, std::min(bytes.size() * 2, limit + 1));
   }
   if (bytes.size() > limit) fail_too_large(name, limit);
+  // A scene can have very many small files.
+  if (bytes.size() < first / 2) {
+    bytes.shrink_to_fit();
+    memory_account().give_back(first - bytes.size());
+  }
   if (digest_of_reads != nullptr) digest_of_reads->add(bytes);
   return bytes;
 }

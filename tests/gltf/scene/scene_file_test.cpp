@@ -33,6 +33,21 @@ std::size_t triangle_count(const LoadedScene& loaded) {
   return count;
 }
 
+/// Returns how many bytes the budget still grants.
+std::uint64_t rest_of(MemoryBudget& budget) {
+  std::uint64_t rest = 0;
+  for (std::uint64_t step = std::uint64_t{1} << 40U; step > 0; step /= 2) {
+    try {
+      budget.take(rest + step, "a test");
+      budget.give_back(rest + step);
+      rest += step;
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  return rest;
+}
+
 TEST(GltfSceneFile, LoadsExternalBuffers) {
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "microtrace_gltf_test";
@@ -47,6 +62,23 @@ TEST(GltfSceneFile, LoadsExternalBuffers) {
 
   std::ofstream(folder / "a b" / "cube.bin", std::ios::binary) << "short";
   EXPECT_THROW((void)load_gltf(json, "cube.gltf", folder), Error);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(GltfSceneFile, SmallBuffersTakeLittleMemory) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "microtrace_small_buffers";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "small.bin", std::ios::binary) << "small";
+  std::ofstream(folder / "long.bin", std::ios::binary) << std::string(1U << 22U, 'x');
+  std::string buffers;
+  for (int i = 0; i < 1000; ++i)
+    buffers += std::string(i == 0 ? "" : ",") + R"({"byteLength":5,"uri":"small.bin"})";
+  for (int i = 0; i < 10; ++i) buffers += R"(,{"byteLength":5,"uri":"long.bin"})";
+  const std::string json = R"({"asset":{"version":"2.0"},"buffers":[)" + buffers + "]}";
+  MemoryBudget budget(std::uint64_t{1} << 23U);
+  EXPECT_NO_THROW((void)load_gltf(json, "small.gltf", folder, DMat4(1), {.memory = &budget}));
+  EXPECT_EQ(rest_of(budget), budget.limit());
   std::filesystem::remove_all(folder);
 }
 
@@ -66,21 +98,6 @@ TEST(GltfSceneFile, KnotHasACamera) {
   ASSERT_EQ(loaded.scene.cameras.size(), 1U);
   EXPECT_EQ(loaded.scene.cameras[0].name, "Front");
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
-}
-
-/// Returns how many bytes the budget still grants.
-std::uint64_t rest_of(MemoryBudget& budget) {
-  std::uint64_t rest = 0;
-  for (std::uint64_t step = std::uint64_t{1} << 40U; step > 0; step /= 2) {
-    try {
-      budget.take(rest + step, "a test");
-      budget.give_back(rest + step);
-      rest += step;
-    } catch (const Error&) {
-      continue;
-    }
-  }
-  return rest;
 }
 
 TEST(GltfSceneFile, LastScenesReleaseTheMemoryOfTheFileButNotOfTheirImages) {

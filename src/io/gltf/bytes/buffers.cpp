@@ -69,6 +69,12 @@ void set_length(Asset& asset, const Element& at, Buffer& buffer) {
     buffer.storage = std::string(*buffer.bytes).append(length - size, '\0');
     buffer.bytes = buffer.storage;
   }
+  if (length < buffer.storage.size() / 2) {
+    memory_account().give_back(buffer.storage.size() - length);
+    buffer.storage.resize(length);
+    buffer.storage.shrink_to_fit();
+    buffer.bytes = buffer.storage;
+  }
   buffer.bytes = buffer.bytes->substr(0, length);
 }
 

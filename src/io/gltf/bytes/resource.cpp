@@ -49,10 +49,11 @@ std::optional<std::string> decoded(const DataUri& data) {
 std::string decode_data_uri(const Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string());
   if (!data) asset.fail(uri, "is not a data URI of the form data:TYPE;base64,DATA");
-  take_memory(data->data.size() / 4 * 3, "the data of data URIs");
+  const std::size_t size = data->data.size();
+  take_memory(data->is_base64 ? size / 4 * 3 : size, "the data of data URIs");
   std::optional<std::string> bytes = decoded(*data);
   if (!bytes && data->is_base64) {
-    asset.fail(uri, "is not base64, which consists of A-Z a-z 0-9 + / in groups of four");
+    asset.fail(uri, "is not base64: A-Z a-z 0-9 + / in groups of four, without white space");
   }
   if (!bytes) asset.fail(uri, "has a % without two hexadecimal digits; write %25 for %");
   return std::move(*bytes);
@@ -78,7 +79,9 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
     const ConfinedReads confined(folders.own, folders.allowed);
     return read_regular_file(path, max_bytes);
   } catch (const Error& error) {
-    asset.fail(uri, file + " " + error.diagnostic().message, error);
+    // Without a file, the error is about memory.
+    const Diagnostic& problem = error.diagnostic();
+    asset.fail(uri, problem.file.empty() ? problem.message : file + " " + problem.message, error);
   }
 }
 
