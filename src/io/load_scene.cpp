@@ -92,7 +92,7 @@ Reader open(std::string_view bytes, const std::string& extension, const std::str
     return io::GltfFile(bytes, name, folder, options);
   }
   io::LoadClock clock(options.times);
-  io::JsonDocument document(bytes, name);
+  io::JsonDocument document = io::naming_file(name, [&] { return io::JsonDocument(bytes, name); });
   clock.lap(&LoadTimes::validate);
   // Every glTF asset has the member "asset", and no scene in microtrace's own format has it.
   if (extension != ".json" && document.root().find("asset") != nullptr) {
@@ -130,7 +130,8 @@ LoadedScene read(Reader& reader, const std::filesystem::path& folder, LoadOption
   if (!options.animation.empty())
     throw Error(ErrorKind::usage, document.file(), "has no animations, so none can be chosen");
   if (options.detail == SurfaceDetail::usual) options.detail = SurfaceDetail::color;
-  LoadedScene result = io::read_json_scene(document, folder, options);
+  LoadedScene result = io::naming_file(
+      document.file(), [&] { return io::read_json_scene(document, folder, options); });
   if (options.time) {
     result.warnings.push_back({.file = document.file(),
                                .pointer = {},

@@ -104,6 +104,26 @@ class Bounds(ProgramTest):
         statistics = json.loads([line for line in said.splitlines() if line.startswith("{")][-1])
         self.assertLess(peak / 1024 - 30, statistics["counted_memory_mib"])
 
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "sanitizers need memory of their own")
+    def test_long_tokens_take_no_more_than_the_limit(self):
+        # A beginning, a middle of 1 MiB, which is repeated, and an end.
+        cases = [(b"", b"\n", b"x", 3), (b'{"a":"', b"a", b"", 3), (b'{"a":"', b"a", b'"} x', 3), (b"[", b"1", b"]", 6),
+                 (b'{"a":"', b"\\n", b'\\q"', 6)]
+        limit = 160
+        path = self.folder / "long.json"
+        for begin, middle, end, expected in cases:
+            with self.subTest(begin + middle + end):
+                # Not written all at once: measured() counts at least the peak of this process.
+                with open(path, "wb") as out:
+                    out.write(begin)
+                    for _ in range(48):
+                        out.write(middle * ((1 << 20) // len(middle)))
+                    out.write(end)
+                code, said, peak = self.measured(path, "--memory-limit", f"{limit}M")
+                self.assertEqual(code, expected, said)
+                self.assertIn(path.name, said)
+                self.assertLess(peak / 1024, limit)
+
     def test_pictures_count_against_the_limit(self):
         scene = SOURCE / "scenes/perspective1.json"
         self.draw(scene, "--size", "4000x4000", "--memory-limit", "100M", code=6)

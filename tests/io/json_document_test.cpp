@@ -182,6 +182,56 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"{\"a\":1, \"b\":2,\n \"a\":3}", 2, 2, "the key \"a\" occurs twice in this object"},
         BadText{"\xEF\xBB\xBF[1 2]", 1, 4, "expected ',' or ']', found \"2\""}));
 
+constexpr std::size_t kLong = 100'000;  // longer than what the parser is spared
+
+TEST(JsonDocument, ReadsLongTokens) {
+  const std::string plain(kLong, 'a');
+  const auto repeated = [](std::string_view part) {
+    std::string text;
+    for (std::size_t i = 0; i < kLong; ++i) text += part;
+    return text;
+  };
+  const std::array<std::pair<std::string, std::string>, 5> contents = {
+      {{plain, plain},
+       {plain + "\\n", plain + "\n"},
+       {"\\\"" + plain, '"' + plain},
+       {repeated("\xC3\xA9"), repeated("\xC3\xA9")},
+       {repeated("\\\\"), std::string(kLong, '\\')}}};
+  for (const auto& [written, meant] : contents) {
+    const std::string white(kLong, '\n');
+    const std::string text = white + "{\"" + written + "\"" + white + ":[\"" + written + "\"," +
+                             white + "1" + std::string(200, '0') + white + "], \"\":\"\"}" + white;
+    const JsonDocument document(text, "s.json");
+    const std::vector<JsonMember>& members = document.root().members();
+    ASSERT_EQ(members.size(), 2U);
+    EXPECT_EQ(members[0].key, meant);
+    EXPECT_EQ(members[0].value.items().at(0).string(), meant);
+    EXPECT_EQ(members[0].value.items().at(1).number(), 1e200);
+    EXPECT_EQ(text[members[0].value.items().at(1).offset], '1');
+    EXPECT_EQ(members[1].key, "");
+    EXPECT_EQ(members[1].value.string(), "");
+  }
+}
+
+TEST(JsonDocument, RefusesLongTokensWithTheExactPlace) {
+  const std::string plain(kLong, 'a'), white(kLong, '\n');
+  const auto expect = [](const std::string& text, std::size_t line, std::size_t column,
+                         std::string_view message) {
+    const Diagnostic diagnostic = error_of(text).diagnostic();
+    EXPECT_EQ(diagnostic.line, line);
+    EXPECT_EQ(diagnostic.column, column);
+    EXPECT_THAT(diagnostic.message, HasSubstr(message));
+  };
+  expect(white + "x", kLong + 1, 1, "expected a value");
+  expect("[\"" + plain, 1, 2, "is not closed");
+  expect("[\"" + plain + "\n  \"]", 1, 2, "is not closed on its line");
+  expect("[\"" + plain + "\1  \"]", 1, kLong + 3, "control character");
+  expect("[\"" + plain + "\\q  \"]", 1, kLong + 4, "unknown escape");
+  expect("[\"" + plain + "\xFF  \"]", 1, kLong + 3, "is not UTF-8");
+  expect("[\"" + plain + "\" \"b\"]", 1, kLong + 5, "found a string");
+  expect("[" + std::string(kLong, '1') + "]", 1, 2, "out of range");
+}
+
 TEST(JsonDocument, NamesThePointerOfABadValue) {
   EXPECT_EQ(error_of(R"({"a":[0,{"b/c~":1e999}]})").diagnostic().pointer, "/a/1/b~1c~0");
   EXPECT_EQ(error_of(R"({"a":[0,{"b":1,"b":2}]})").diagnostic().pointer, "/a/1");

@@ -2,7 +2,8 @@
 
 #include "base/text/printable.hpp"
 #include "io/json/excerpt.hpp"
-#include "io/json/tree_builder.hpp"
+#include "io/json/parse/token.hpp"
+#include "io/json/parse/tree_builder.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -17,7 +18,7 @@ JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t 
   }
   std::string_view content = text;
   if (content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
-  if (content.find_first_not_of(kWhitespace) == std::string_view::npos) {
+  if (skip_whitespace(content, 0) == content.size()) {
     throw Error(ErrorKind::invalid_scene, file_, "is empty");
   }
   build_tree(*this, text, root_, max_values, repeated, outdone_keys_);

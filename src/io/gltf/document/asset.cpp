@@ -1,7 +1,7 @@
 #include "io/gltf/document/asset.hpp"
 
 #include "base/memory_account.hpp"
-#include "io/json/tree_memory.hpp"
+#include "io/json/parse/tree_memory.hpp"
 
 #include <algorithm>
 #include <utility>

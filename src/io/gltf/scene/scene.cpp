@@ -2,6 +2,7 @@
 
 #include "base/counted.hpp"
 #include "base/memory_account.hpp"
+#include "io/file_name.hpp"
 #include "io/gltf/animation/animations.hpp"
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/bytes/buffers.hpp"
@@ -30,8 +31,6 @@
 #include "io/load_clock.hpp"
 #include "scene/translation_to_origin.hpp"
 
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -40,22 +39,6 @@ namespace microtrace::io {
 namespace {
 
 using gltf::Asset, gltf::Model, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
-
-/// Runs one step of loading and converts all exceptions to Error.
-template <typename Part>
-auto guarded(const std::string& name, Part&& part) {
-  try {
-    return part();
-  } catch (const Error& error) {
-    // Errors of the memory budget don't name a file.
-    if (!error.diagnostic().file.empty()) throw;
-    throw Error(error.kind(), name, error.diagnostic().message);
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::limit, name, "the asset needs more memory than is available");
-  } catch (const std::exception& error) {
-    throw Error(ErrorKind::internal, name, std::string("reading glTF failed: ") + error.what());
-  }
-}
 
 }  // namespace
 
@@ -226,8 +209,8 @@ struct GltfFile::Content {
 
 GltfFile::GltfFile(std::string_view bytes, const std::string& name,
                    const std::filesystem::path& folder, const LoadOptions& options)
-    : content_(
-          guarded(name, [&] { return std::make_unique<Content>(bytes, name, folder, options); })) {}
+    : content_(naming_file(
+          name, [&] { return std::make_unique<Content>(bytes, name, folder, options); })) {}
 GltfFile::~GltfFile() = default;
 GltfFile::GltfFile(GltfFile&& other) noexcept = default;
 GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
@@ -237,7 +220,7 @@ SceneChoices GltfFile::choices() const {
 }
 
 LoadedScene GltfFile::at(std::optional<double> time) {
-  return guarded(content_->name, [&] {
+  return naming_file(content_->name, [&] {
     const gltf::PosedAsset pose = content_->pose(time);
     const DVec3 way = translation_to_origin(content_->bounds(pose));
     LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way), 1);
@@ -248,8 +231,9 @@ LoadedScene GltfFile::at(std::optional<double> time) {
 
 LoadedScene GltfFile::placed(std::optional<double> time, const DMat4& world_from_asset,
                              std::size_t copies) {
-  return guarded(content_->name,
-                 [&] { return content_->scene(content_->pose(time), world_from_asset, copies); });
+  return naming_file(content_->name, [&] {
+    return content_->scene(content_->pose(time), world_from_asset, copies);
+  });
 }
 
 }  // namespace microtrace::io

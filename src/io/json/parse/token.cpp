@@ -1,13 +1,22 @@
-#include "io/json/token.hpp"
+#include "io/json/parse/token.hpp"
+
+#include <algorithm>
 
 namespace microtrace::io {
 
 // These are loops, because find_first_of() and the like call a function for each character.
 
-std::size_t string_end(std::string_view text, std::size_t start) {
-  std::size_t end = start + 1;
-  while (text[end] != '"') end += text[end] == '\\' ? 2 : 1;
-  return end + 1;
+StringExtent string_extent(std::string_view text, std::size_t start) {
+  bool is_verbatim = true;
+  std::size_t at = start + 1;
+  for (; at < text.size(); ++at) {
+    const auto c = static_cast<unsigned char>(text[at]);
+    if (c == '"') return {.end = at + 1, .is_closed = true, .is_verbatim = is_verbatim};
+    if (c < ' ') break;
+    if (c == '\\') ++at;
+    is_verbatim &= c != '\\' && c < 0x80;
+  }
+  return {.end = std::min(at, text.size()), .is_closed = false, .is_verbatim = is_verbatim};
 }
 
 std::size_t number_end(std::string_view text, std::size_t start) {

@@ -1,10 +1,11 @@
-#include "io/json/tree_builder.hpp"
+#include "io/json/parse/tree_builder.hpp"
 
 #include "base/text/printable.hpp"
 #include "io/json/members.hpp"
-#include "io/json/syntax.hpp"
-#include "io/json/token.hpp"
-#include "io/json/tree_memory.hpp"
+#include "io/json/parse/lexer_input.hpp"
+#include "io/json/parse/syntax.hpp"
+#include "io/json/parse/token.hpp"
+#include "io/json/parse/tree_memory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +24,12 @@ namespace {
 /// from the end of the previous one.
 class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
-  TreeBuilder(const JsonDocument& document, std::string_view text, JsonValue& root,
-              std::size_t max_values, RepeatedKeys policy, OutdoneKeys& outdone_keys)
+  TreeBuilder(const JsonDocument& document, std::string_view text, const LexerInput& input,
+              JsonValue& root, std::size_t max_values, RepeatedKeys policy,
+              OutdoneKeys& outdone_keys)
       : document_(document),
         text_(text),
+        input_(input),
         root_(root),
         max_values_(max_values),
         policy_(policy),
@@ -50,8 +53,9 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool string(string_t& value) override {
     const std::size_t start = next_token().token;
-    memory_.take_boxed(value);
-    return scalar(JsonValue(std::string(value)), string_end(text_, start) - start);
+    const std::string_view content = string_content(value, start);
+    memory_.take_boxed(content.size());
+    return scalar(JsonValue(std::string(content)), input_.string_end() - start);
   }
 
   bool binary(binary_t& /*value*/) override { return false; }  // never called for JSON texts
@@ -68,18 +72,19 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool key(string_t& name) override {
     const std::size_t start = next_token().token;
-    memory_.take_member(name);
-    memory_.push(members_, JsonMember{.key = name, .value = {}});
+    end_ = input_.string_end();
+    const std::string_view content = string_content(name, start);
+    memory_.take_member(content.size());
+    memory_.push(members_, JsonMember{.key = std::string(content), .value = {}});
     members_.back().value.key_offset = static_cast<std::uint32_t>(start);
-    end_ = string_end(text_, start);
     last_ = Last::key;
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string& /*token*/,
+  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
                    const nlohmann::detail::exception& error) override {
     SyntaxContext context = next_token();
-    context.read = std::min(position, text_.size());
+    context.read = input_.read();
     if (error.id == 406) {
       fail(ErrorKind::invalid_scene, context.token,
            "the number is out of range; the largest is about 1.8e308");
@@ -116,12 +121,10 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return result;
   }
 
-  [[nodiscard]] std::size_t skip_whitespace(std::size_t offset) const {
-    const auto is_white = [](char c) {
-      return std::ranges::find(kWhitespace, c) != kWhitespace.end();
-    };
-    while (offset < text_.size() && is_white(text_[offset])) ++offset;
-    return offset;
+  /// Returns the content of the string token that was read last. The lexer's value is empty if the
+  /// content was not passed to it.
+  [[nodiscard]] std::string_view string_content(std::string_view value, std::size_t start) const {
+    return value.empty() ? text_.substr(start + 1, input_.string_end() - start - 2) : value;
   }
 
   /// Returns the position of the next token, and the tokens allowed there.
@@ -129,18 +132,18 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     using enum SyntaxContext::Expects;
     SyntaxContext context{
         .in_object = !open_.empty() && open_.back().kind == JsonValue::Kind::object,
-        .token = skip_whitespace(end_)};
+        .token = skip_whitespace(text_, end_)};
     const std::string_view rest = text_.substr(context.token);
     if (last_ == Last::key) {
       context.expects = rest.starts_with(':') ? value : colon;
-      if (rest.starts_with(':')) context.token = skip_whitespace(context.token + 1);
+      if (rest.starts_with(':')) context.token = skip_whitespace(text_, context.token + 1);
     } else if (open_.empty()) {
       context.expects = last_ == Last::open ? value : end_of_document;
     } else if (last_ == Last::open) {
       context.expects = context.in_object ? key_or_end : value_or_end;
     } else if (rest.starts_with(',')) {
       context.expects = context.in_object ? key : value;
-      context.comma = std::exchange(context.token, skip_whitespace(context.token + 1));
+      context.comma = std::exchange(context.token, skip_whitespace(text_, context.token + 1));
     } else {
       context.expects = comma_or_end;
     }
@@ -263,6 +266,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   const JsonDocument& document_;
   std::string_view text_;
+  const LexerInput& input_;
   JsonValue& root_;
   std::size_t max_values_;
   RepeatedKeys policy_;
@@ -280,8 +284,9 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
 void build_tree(const JsonDocument& document, std::string_view text, JsonValue& root,
                 std::size_t max_values, RepeatedKeys policy, OutdoneKeys& outdone_keys) {
-  TreeBuilder builder(document, text, root, max_values, policy, outdone_keys);
-  nlohmann::json::sax_parse(text.data(), text.data() + text.size(), &builder);
+  LexerInput input(text);
+  TreeBuilder builder(document, text, input, root, max_values, policy, outdone_keys);
+  nlohmann::json::sax_parse(LexerIterator(&input), LexerIterator(&input), &builder);
   builder.require_end();
 }
 

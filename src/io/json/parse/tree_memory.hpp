@@ -19,15 +19,15 @@ class TreeMemory {
   /// Counts an element of an array without its content.
   void take_item() { take(kBytesOfItem); }
   /// Counts a member without its value's content, and its place in the index of large objects.
-  void take_member(const std::string& key) { take(bytes_of_member(key)); }
+  void take_member(std::size_t key_size) { take(bytes_of_member(key_size)); }
   /// Counts the content of a string value.
-  void take_boxed(const std::string& text) { take(bytes_of_boxed(text)); }
+  void take_boxed(std::size_t size) { take(bytes_of_boxed(size)); }
   /// Counts the content of an array or object without its elements or members.
   void take_container() { take(kBytesOfContainer); }
 
   /// The bytes that are counted for a member with its value.
   [[nodiscard]] static std::uint64_t bytes_of(const JsonMember& member) {
-    return bytes_of_member(member.key) + bytes_of_content(member.value);
+    return bytes_of_member(member.key.size()) + bytes_of_content(member.value);
   }
 
   /// Adds an element to a stack. A stack that is full doubles, and the old one is freed afterwards.
@@ -46,15 +46,15 @@ class TreeMemory {
   static constexpr std::size_t kBytesOfContainer =
       2 * sizeof(std::vector<JsonValue>) + 2 * kBytesOfAllocation;
 
-  static std::size_t bytes_of_member(const std::string& key) {
-    return sizeof(JsonMember) + sizeof(std::uint32_t) + bytes_beside(key);
+  static std::size_t bytes_of_member(std::size_t key_size) {
+    return sizeof(JsonMember) + sizeof(std::uint32_t) + bytes_beside(key_size);
   }
-  static std::size_t bytes_of_boxed(const std::string& text) {
-    return sizeof(std::string) + kBytesOfAllocation + bytes_beside(text);
+  static std::size_t bytes_of_boxed(std::size_t size) {
+    return sizeof(std::string) + kBytesOfAllocation + bytes_beside(size);
   }
   static std::uint64_t bytes_of_content(const JsonValue& value) {
     std::uint64_t result = 0;
-    if (value.kind() == JsonValue::Kind::string) result += bytes_of_boxed(value.string());
+    if (value.kind() == JsonValue::Kind::string) result += bytes_of_boxed(value.string().size());
     if (value.kind() == JsonValue::Kind::array || value.kind() == JsonValue::Kind::object)
       result += kBytesOfContainer;
     for (const JsonValue& item : value.items()) result += kBytesOfItem + bytes_of_content(item);
@@ -62,9 +62,9 @@ class TreeMemory {
     return result;
   }
 
-  static std::size_t bytes_beside(const std::string& text) {
+  static std::size_t bytes_beside(std::size_t size) {
     constexpr std::size_t kMostInPlace = 15;
-    return text.size() > kMostInPlace ? text.size() + 1 + kBytesOfAllocation : 0;
+    return size > kMostInPlace ? size + 1 + kBytesOfAllocation : 0;
   }
 
   void take(std::size_t bytes) {

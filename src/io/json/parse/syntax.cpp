@@ -1,4 +1,4 @@
-#include "io/json/syntax.hpp"
+#include "io/json/parse/syntax.hpp"
 
 #include "base/text/printable.hpp"
 

@@ -7,7 +7,6 @@
 namespace microtrace::io {
 
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-inline constexpr std::string_view kWhitespace = " \t\r\n";
 
 /// Parses the text of the document. Throws Error as the constructor of JsonDocument does.
 void build_tree(const JsonDocument& document, std::string_view text, JsonValue& root,
