@@ -19,8 +19,8 @@ namespace microtrace {
 struct StoredPicture {
   /// What the numbers of the file are.
   enum class Samples {
-    integers,  ///< of 8 or 16 bits: samples are divided by the maximum; alpha is unassociated
-    floats,    ///< samples are unchanged; colors are premultiplied with alpha
+    integers,  ///< of 8 or 16 bits: samples as stored, divided by the maximum
+    floats,    ///< colors are premultiplied by alpha
   };
 
   ImageSize size{};
@@ -31,10 +31,11 @@ struct StoredPicture {
   std::vector<float> samples{};
 };
 
-/// Reads the colors and the alpha of a picture: PPM; PNG, JPEG and WebP by the codec module; EXR by
-/// OpenEXR; other formats by OpenImageIO. Other channels are ignored. Throws Error: io if the file
-/// can't be read or decoded, limit if it is too large, unsupported if the module is not installed.
-/// `memory`, if given, counts the memory for reading.
+/// Reads the colors and the alpha of a picture: PGM and PPM; PNG, JPEG and WebP by the codec
+/// module; EXR by OpenEXR; other formats by OpenImageIO. Other channels are ignored. Throws Error:
+/// io if the file can't be read or decoded, limit if it is too large, unsupported if the file has
+/// several pictures or if the module is not installed. `memory`, if given, counts the memory for
+/// reading.
 [[nodiscard]] MICROTRACE_EXPORT StoredPicture load_picture(const std::filesystem::path& path,
                                                            MemoryBudget* memory = nullptr);
 
@@ -58,10 +59,11 @@ struct PictureDifference {
 };
 
 /// Compares two pictures of the same size, sample by sample. Alpha takes part if one of them has
-/// it. Integers are compared as numbers in [0, 1]. If one picture has integers and the other
-/// floats, the floats are first converted to 8 bits according to `display`, as save_image() does
-/// it. Two infinities of the same sign are equal, and so are two NaN; other differences with NaN
-/// are infinite. Throws Error (usage) if the sizes differ.
+/// it. Integers are compared as numbers in [0, 1]; n of 255 steps are a difference of exactly
+/// n/255. If one picture has integers and the other floats, the floats are first converted to 8
+/// bits according to `display`, as save_image() does it. Two infinities of the same sign are equal,
+/// and so are two NaN; other differences with NaN are infinite. Throws Error (usage) if the sizes
+/// differ.
 [[nodiscard]] MICROTRACE_EXPORT PictureDifference compare_pictures(const StoredPicture& a,
                                                                    const StoredPicture& b,
                                                                    double threshold = 0,

@@ -1,5 +1,6 @@
 #include "cli/compare.hpp"
 
+#include "base/memory_account.hpp"
 #include "base/text/printable.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/report/standard_output.hpp"
@@ -86,8 +87,14 @@ int compare_files(const Arguments& arguments) {
   if (arguments.output == "-")
     refuse_usage("--output: standard output gets the comparison; name a file");
   if (!arguments.output.empty()) check_image_path(arguments.output);
-  const StoredPicture a = load_picture(options.pictures[0], &memory);
-  const StoredPicture b = load_picture(options.pictures[1], &memory);
+  MemoryAccount account(&memory);
+  const MemoryScope scope(account);
+  const auto load = [&](const std::string& name) {
+    StoredPicture picture = load_picture(name, &memory);
+    account.take(picture.samples.size() * sizeof(float), "the pixels of a picture");
+    return picture;
+  };
+  const StoredPicture a = load(options.pictures[0]), b = load(options.pictures[1]);
   if (const auto name = inputs.name_of(arguments.output); name && !arguments.output.empty())
     refuse_usage("--output: would overwrite " + printable(*name));
   if (a.size.width != b.size.width || a.size.height != b.size.height) {
@@ -100,8 +107,8 @@ int compare_files(const Arguments& arguments) {
   const PictureDifference difference = compare_pictures(a, b, options.threshold, display);
   const std::string text =
       options.is_json ? json_of(difference) : text_of(difference, options.threshold);
-  if (!arguments.output.empty()) save_image(difference_picture(a, b, display), arguments.output);
   write_standard_output(text);
+  if (!arguments.output.empty()) save_image(difference_picture(a, b, display), arguments.output);
   return difference.differing == 0 ? 0 : kPicturesDiffer;
 }
 

@@ -5,6 +5,7 @@ usage: compare_test.py PROGRAM SOURCE_FOLDER
 """
 
 import json
+import math
 import os
 import random
 import re
@@ -13,6 +14,7 @@ import struct
 import subprocess
 import sys
 import unittest
+import zlib
 from pathlib import Path
 
 from program import PROGRAM, ProgramTest
@@ -34,13 +36,38 @@ class Compare(ProgramTest):
         result = self.run_program(SCENES / scene, "--size", "64x48", *arguments, "-o", name, "-q")
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    def write(self, name, data):
+        (self.folder / name).write_bytes(data)
+
+    def tga(self, name, gray, alpha):
+        """Writes 2 x 1 gray pixels with alpha."""
+        self.write(name, struct.pack("<3B5x4H2B", 0, 0, 3, 0, 0, 2, 1, 16, 8) + bytes([gray, alpha] * 2))
+
+    def gif(self, name, transparent=None, frames=1):
+        """Writes 2 x 1 pixels of the colors 0 and 1. Codes of 8 bits need no compression."""
+        control = bytes([0x21, 0xF9, 4, 0 if transparent is None else 1, 0, 0, transparent or 0, 0])
+        frame = control + struct.pack("<B4HB", 0x2C, 0, 0, 2, 1, 0) + bytes([7, 4, 128, 0, 1, 129, 0])
+        palette = bytes([9, 9, 9, 200, 100, 50]) + bytes(3 * 126)
+        self.write(name, b"GIF89a" + struct.pack("<2H3B", 2, 1, 0xF6, 0, 0) + palette + frames * frame + b";")
+
+    def tiff(self, name, extra_samples, pages=1):
+        """Writes one pixel of floats, with premultiplied (1) or unassociated (2) alpha."""
+        pixel = (0.25, 0.125, 0.0625, 0.5) if extra_samples == 1 else (0.5, 0.25, 0.125, 0.5)
+        data = b"II*\0" + struct.pack("<I4H4H4f", 40, *[32] * 4, *[3] * 4, *pixel)
+        tags = [(256, 1), (257, 1), (258, 8), (259, 1), (262, 2), (273, 24), (277, 4), (278, 1), (279, 16), (338, extra_samples), (339, 16)]
+        for page in range(pages):
+            after = len(data) + 2 + 12 * len(tags) + 4 if page + 1 < pages else 0
+            entries = [struct.pack("<2H2I", tag, 3, 4 if tag in (258, 339) else 1, value) for tag, value in tags]
+            data += struct.pack("<H", len(tags)) + b"".join(entries) + struct.pack("<I", after)
+        self.write(name, data)
+
     def ppm(self, name, width, height, samples, maximum=255, text=False):
         head = f"{'P3' if text else 'P6'}\n# a comment\n{width} {height}\n{maximum}\n".encode()
         if text:
             body = " ".join(map(str, samples)).encode() + b"\n"
         else:
             body = struct.pack(f">{len(samples)}{'B' if maximum < 256 else 'H'}", *samples)
-        (self.folder / name).write_bytes(head + body)
+        self.write(name, head + body)
 
     def test_results_that_can_not_be_written(self):
         for name, size in (("a.ppm", (2, 1)), ("b.ppm", (1, 1))):
@@ -89,6 +116,64 @@ class Compare(ProgramTest):
         pixels = (self.folder / "d.ppm").read_bytes().removeprefix(b"P6\n64 48\n255\n")
         self.assertEqual(pixels.count(b"\xff"), 3 * difference["differing"])
 
+    def test_alpha_of_other_formats(self):
+        for alpha in (255, 0):
+            self.tga(f"gray{alpha}.tga", 100, alpha)
+        self.assertEqual(self.difference("gray255.tga", "gray0.tga")["maximum"], 1)
+        self.gif("opaque.gif")
+        self.gif("transparent.gif", transparent=1)
+        difference = self.difference("opaque.gif", "transparent.gif")
+        self.assertEqual((difference["maximum"], difference["at_maximum"], difference["differing"]), (1, [1, 0], 1))
+        # Floats are premultiplied, whatever the file has.
+        self.tiff("premultiplied.tif", 1)
+        self.tiff("unassociated.tif", 2)
+        self.compare("premultiplied.tif", "unassociated.tif", code=0)
+
+    @unittest.skipUnless(shutil.which("oiiotool"), "openimageio-tools")
+    def test_alpha_of_gray_exr(self):
+        for alpha in (255, 0):
+            self.tga("gray.tga", 100, alpha)
+            subprocess.run(["oiiotool", "gray.tga", "--chnames", "Y,A", "-o", f"gray{alpha}.exr"], cwd=self.folder, check=True)
+        self.assertEqual(self.difference("gray255.exr", "gray0.exr")["maximum"], 1)
+
+    def test_files_of_several_pictures(self):
+        self.ppm("a.ppm", 1, 1, [1, 2, 3])
+        frame = (self.folder / "a.ppm").read_bytes()
+        self.write("cut.ppm", frame + frame[:9])
+        self.write("two.ppm", frame + frame)
+        self.write("line.ppm", frame + b"\n")
+        self.compare("a.ppm", "line.ppm", code=0)
+        self.gif("two.gif", frames=2)
+        self.tiff("two.tif", 1, pages=2)
+        self.draw("a.png")
+        png = (self.folder / "a.png").read_bytes()
+        animation = b"acTL" + struct.pack(">2I", 2, 0)
+        self.write("two.png", png[:33] + struct.pack(">I", 8) + animation + struct.pack(">I", zlib.crc32(animation)) + png[33:])
+        for name in ("cut.ppm", "two.ppm", "two.gif", "two.tif", "two.png"):
+            refused = self.compare(name, name, code=4)
+            self.assertIn(b"in a file of its own", refused.stderr)
+            self.assertEqual(refused.stdout, b"")
+        self.ppm("more.ppm", 1, 1, [1, 2, 3, 4], text=True)
+        self.assertIn(b"more samples than pixels", self.compare("a.ppm", "more.ppm", code=5).stderr)
+
+    def test_equal_steps_are_equal_differences(self):
+        for maximum in (255, 65535):
+            for step in (1, 2, 3, 5, 8, 21):
+                lower = [k * ((maximum - step) // 251) for k in range(252)]
+                self.ppm("a.ppm", 84, 1, lower, maximum)
+                self.ppm("b.ppm", 84, 1, [k + step for k in lower], maximum)
+                self.assertEqual(self.difference("a.ppm", "b.ppm")["maximum"], step / maximum)
+                self.compare("a.ppm", "b.ppm", "--threshold", repr(step / maximum), code=0)
+                self.compare("a.ppm", "b.ppm", "--threshold", repr(math.nextafter(step / maximum, 0)), code=7)
+                self.assertEqual(self.difference("a.ppm", "b.ppm", "--threshold", repr(math.nextafter(step / maximum, 0)))["differing"], 84)
+
+    def test_memory_of_both_pictures_counts(self):
+        self.ppm("a.ppm", 2000, 1500, bytes(9_000_000))
+        self.compare("a.ppm", "a.ppm", "--memory-limit", "120M", code=0)
+        self.compare("a.ppm", "a.ppm", "--memory-limit", "90M", code=6)
+        self.compare("a.ppm", "a.ppm", "--memory-limit", "120M", "-o", "d.ppm", code=6)
+        self.assertFalse((self.folder / "d.ppm").exists())
+
     def test_neighboring_integers_differ_by_exactly_one_step(self):
         for maximum in (255, 65535):
             samples = [3 * (k // 3) * (maximum // 255) % maximum for k in range(3 * 256)]
@@ -131,6 +216,17 @@ class Compare(ProgramTest):
         self.ppm("c.ppm", 2, 1, [0, 1, 1, 0, 1, 1], 1)
         self.ppm("d.ppm", 2, 1, [0, 255, 255, 0, 255, 255])
         self.compare("c.ppm", "d.ppm", code=0)
+
+    def test_gray_files(self):
+        for maximum in (255, 1000, 65535):
+            gray = [maximum * k // 63 for k in range(64)]
+            self.ppm("color.ppm", 8, 8, [k for k in gray for _ in range(3)], maximum)
+            color = (self.folder / "color.ppm").read_bytes()
+            head = b"P5" + color[2:len(color) - 64 * (3 if maximum < 256 else 6)]
+            self.write("gray.pgm", head + struct.pack(f">64{'B' if maximum < 256 else 'H'}", *gray))
+            self.write("text.pgm", b"P2" + head[2:] + " ".join(map(str, gray)).encode())
+            for name in ("gray.pgm", "text.pgm"):
+                self.compare("color.ppm", name, code=0)
 
     @unittest.skipUnless(shutil.which("idiff"), "openimageio-tools")
     def test_numbers_are_those_of_idiff(self):
@@ -203,6 +299,9 @@ class Compare(ProgramTest):
         self.draw("b.exr", "--integrator", "flat")
         d = self.difference("a.exr", "b.exr")
         self.assertEqual((d["maximum"], d["mean"]), ("Infinity", "Infinity"))
+        # The result is printed even if the picture of the differences can't be stored.
+        failed = self.compare("a.exr", "b.exr", "-o", "d.hdr", code=2)
+        self.assertEqual(failed.stdout, self.compare("a.exr", "b.exr").stdout)
 
 
 if __name__ == "__main__":

@@ -68,10 +68,8 @@ std::vector<std::string> names_of(const Option& option) {
   return {names.begin(), names.end()};
 }
 
-std::vector<std::string> words_of(const Option& option, Command command) {
-  const bool renders = command == Command::render || command == Command::view;
-  if (option.words == nullptr || (option.is_for_one_picture && !renders)) return {};
-  return option.words();
+std::vector<std::string> words_of(const Option& option) {
+  return option.words == nullptr ? std::vector<std::string>() : option.words();
 }
 
 /// Returns true if the word after the option is its value.
@@ -99,7 +97,7 @@ std::string bash_cases(Command command) {
   std::string cases;
   for (const Option& option : named_options(command)) {
     const std::vector<std::string> option_names = names_of(option);
-    const std::vector<std::string> words = words_of(option, command);
+    const std::vector<std::string> words = words_of(option);
     all_names.insert(all_names.end(), option_names.begin(), option_names.end());
     const std::vector<std::string> names = bash_patterns(prefix, option);
     if (names.empty()) continue;
@@ -171,8 +169,8 @@ complete -F _microtrace microtrace
 )";
 }
 
-std::string zsh_value(const Option& option, Command command) {
-  const std::vector<std::string> words = words_of(option, command);
+std::string zsh_value(const Option& option) {
+  const std::vector<std::string> words = words_of(option);
   std::string value = ":" + escaped(std::string(option.metavar), ":\\") + ":";
   if (option.completion == Completion::folders) return value + "_files -/";
   if (option.completion == Completion::files) return value + "_files";
@@ -191,7 +189,7 @@ std::string zsh_arguments(Command command) {
       // =- requires a value to be in the same word, and a second colon makes it optional.
       if (!option.is_switch() && name.starts_with("--")) entry += has_value(option) ? "=" : "=-";
       entry += "[" + escaped(std::string(option.help), "[]:\\") + "]";
-      if (!option.is_switch()) entry += (has_value(option) ? "" : ":") + zsh_value(option, command);
+      if (!option.is_switch()) entry += (has_value(option) ? "" : ":") + zsh_value(option);
       script += "      " + in_single_quotes(entry) + " \\\n";
     }
   }
@@ -261,7 +259,7 @@ complete -c microtrace -n '__microtrace_command completion' -f -a ')" +
         script += (is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1);
       }
       if (!option.is_switch()) {
-        const std::vector<std::string> words = words_of(option, command);
+        const std::vector<std::string> words = words_of(option);
         const bool takes_file = option.completion != Completion::none;
         script += !has_value(option) ? " -f" : takes_file ? " -r -F" : " -x";
         if (!words.empty()) {

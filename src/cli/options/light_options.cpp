@@ -69,50 +69,63 @@ constexpr std::array kLightOptions{
 };
 static_assert(is_complete(kLightOptions));
 
+std::vector<std::string> automatic_word() {
+  return {"auto"};
+}
+
 void set_exposure(Arguments& a, const OptionValue& value) {
   const bool is_automatic = value.text == "auto";
   a.display.automatic = is_automatic ? AutomaticExposure::always : AutomaticExposure::never;
   a.display.exposure = is_automatic ? std::nullopt : std::optional(value.number(-64, 64));
 }
 
-constexpr std::array kDisplayOptions{
-    Option{.names = "--denoise",
-           .help = "remove the noise of a path-traced picture by the library Open Image Denoise, "
-                   "which must be installed",
-           .samples = Samples::keep,
-           .set = [](Arguments& a, const OptionValue&) { a.denoises = true; }},
-    Option{.names = "--exposure",
-           .metavar = "EV",
-           .help = "exposure of 8-bit pictures in stops, -64 to 64: radiance is multiplied by "
-                   "2^EV; auto, for single pictures and sequences: the exposure nearest to 0 at "
-                   "which surfaces are neither blown out nor black",
-           .default_value = "auto for renderings of path-traced glTF assets with lights, "
-                            "except data sets; for merge, that of the first samples; else 0",
-           .samples = Samples::keep,
-           .words = [] { return std::vector<std::string>{"auto"}; },
-           .is_for_one_picture = true,
-           .set = set_exposure},
-    Option{
-        .names = "--tonemap",
-        .metavar = "NAME",
-        .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",
-        .default_value =
-            "khronos-pbr-neutral for path-traced renderings; for merge, that of the first samples; "
-            "else none",
-        .samples = Samples::keep,
-        .words = tone_map_names,
-        .set = [](Arguments& a,
-                  const OptionValue& value) { a.display.tone_map = parse_tone_map(value); }},
-    Option{
-        .names = "--ppm",
-        .metavar = "KIND",
-        .help = "encoding of PPM files: binary (P6) or ascii (P3)",
-        .default_value = "binary",
-        .samples = Samples::keep,
-        .words = [] { return names_of(kPpmEncodings); },
-        .set = [](Arguments& a, const OptionValue& value) { a.ppm = value.choice(kPpmEncodings); }},
-};
-static_assert(is_complete(kDisplayOptions));
+/// Returns the options for display with the defaults of a command.
+constexpr std::array<Option, 4> display_table(std::string_view exposure, std::string_view tone_map,
+                                              bool has_automatic_exposure) {
+  return {
+      Option{.names = "--denoise",
+             .help = "remove the noise of a path-traced picture by the library Open Image Denoise, "
+                     "which must be installed",
+             .samples = Samples::keep,
+             .set = [](Arguments& a, const OptionValue&) { a.denoises = true; }},
+      Option{.names = "--exposure",
+             .metavar = "EV",
+             .help = "exposure of 8-bit pictures in stops, -64 to 64: radiance is multiplied by "
+                     "2^EV",
+             .default_value = exposure,
+             .samples = Samples::keep,
+             .words = has_automatic_exposure ? automatic_word : nullptr,
+             .set = set_exposure},
+      Option{.names = "--tonemap",
+             .metavar = "NAME",
+             .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",
+             .default_value = tone_map,
+             .samples = Samples::keep,
+             .words = tone_map_names,
+             .set = [](Arguments& a,
+                       const OptionValue& value) { a.display.tone_map = parse_tone_map(value); }},
+      Option{.names = "--ppm",
+             .metavar = "KIND",
+             .help = "encoding of PPM files: binary (P6) or ascii (P3)",
+             .default_value = "binary",
+             .samples = Samples::keep,
+             .words = [] { return names_of(kPpmEncodings); },
+             .set = [](Arguments& a,
+                       const OptionValue& value) { a.ppm = value.choice(kPpmEncodings); }},
+  };
+}
+
+constexpr std::string_view kToneMapOfRenderings =
+    "khronos-pbr-neutral for path-traced renderings; else none";
+constexpr auto kDisplayOfPictures = display_table(
+    "auto, the exposure nearest to 0 at which surfaces are neither blown out nor black, for "
+    "path-traced renderings of glTF assets with lights; else 0",
+    kToneMapOfRenderings, true);
+constexpr auto kDisplayOfDataSets = display_table("0", kToneMapOfRenderings, false);
+constexpr auto kDisplayOfMerged =
+    display_table("that of the first samples", "that of the first samples", false);
+constexpr auto kDisplayOfCompared = display_table("0", "none", false);
+static_assert(is_complete(kDisplayOfPictures));
 
 }  // namespace
 
@@ -120,8 +133,17 @@ std::span<const Option> light_options() {
   return kLightOptions;
 }
 
-std::span<const Option> display_options() {
-  return kDisplayOptions;
+std::span<const Option> display_options(Command command) {
+  switch (command) {
+    case Command::dataset:
+      return kDisplayOfDataSets;
+    case Command::merge:
+      return kDisplayOfMerged;
+    case Command::compare:
+      return kDisplayOfCompared;
+    default:
+      return kDisplayOfPictures;
+  }
 }
 
 }  // namespace microtrace::cli

@@ -29,7 +29,7 @@ std::string_view Option::name() const {
 std::vector<OptionGroup> option_groups(Command command) {
   if (command == Command::merge) {
     return {{"Merging", merge_options()},
-            {"Display", display_options()},
+            {"Display", display_options(command)},
             {"Running", rows(running_options(), "--memory-limit", "--memory-limit")},
             {"Messages and help", common_options()}};
   }
@@ -40,7 +40,7 @@ std::vector<OptionGroup> option_groups(Command command) {
             {"Camera of views without one", camera_options()},
             {"Integrator and samples", sampling_options()},
             {"Light", light_options()},
-            {"Display", display_options()},
+            {"Display", display_options(command)},
             {"glTF assets", rows(asset_options(), "--time", "--fps")},
             {"glTF assets", rows(asset_options(), "--variant", "--allow-path")},
             {"Running", rows(running_options(), "--threads", "--memory-limit")},
@@ -64,7 +64,8 @@ std::vector<OptionGroup> option_groups(Command command) {
   }
   if (command == Command::compare) {
     return {{"Comparison", compare_options()},
-            {"Conversion of floats to 8 bits", rows(display_options(), "--exposure", "--tonemap")},
+            {"Conversion of floats to 8 bits",
+             rows(display_options(command), "--exposure", "--tonemap")},
             {"Running", rows(running_options(), "--memory-limit", "--memory-limit")},
             {"Messages and help", rows(common_options(), "--help", "--help")}};
   }
@@ -74,7 +75,7 @@ std::vector<OptionGroup> option_groups(Command command) {
             {"Camera", camera_options()},
             {"Integrator and samples", sampling_options()},
             {"Light", light_options()},
-            {"Display", rows(display_options(), "--denoise", "--tonemap")},
+            {"Display", rows(display_options(command), "--denoise", "--tonemap")},
             {"glTF assets", rows(asset_options(), "--time", "--animation")},
             {"glTF assets", rows(asset_options(), "--variant", "--allow-path")},
             {"Long renderings", rows(checkpoint_options(), "--quality", "--time-limit")},
@@ -85,7 +86,7 @@ std::vector<OptionGroup> option_groups(Command command) {
           {"Camera", camera_options()},
           {"Integrator and samples", sampling_options()},
           {"Light", light_options()},
-          {"Display", display_options()},
+          {"Display", display_options(command)},
           {"glTF assets", asset_options()},
           {"Long renderings", checkpoint_options()},
           {"Running", running_options()},

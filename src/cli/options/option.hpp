@@ -48,8 +48,7 @@ struct Option {
   Completion completion = Completion::none;
   /// Returns the named values; null if there are none.
   std::vector<std::string> (*words)() = nullptr;
-  bool takes_list = false;          ///< true if the value is a list of `words`, separated by commas
-  bool is_for_one_picture = false;  ///< true if only `render` and `view` accept the words
+  bool takes_list = false;  ///< true if the value is a list of `words`, separated by commas
   bool is_required = false;
   bool is_repeatable = false;
   std::string_view needs{};     ///< an option that must also be given
@@ -81,7 +80,7 @@ struct OptionGroup {
 [[nodiscard]] std::span<const Option> picture_options();
 [[nodiscard]] std::span<const Option> camera_options();
 [[nodiscard]] std::span<const Option> light_options();
-[[nodiscard]] std::span<const Option> display_options();
+[[nodiscard]] std::span<const Option> display_options(Command command);
 [[nodiscard]] std::span<const Option> sampling_options();
 [[nodiscard]] std::span<const Option> asset_options();
 [[nodiscard]] std::span<const Option> checkpoint_options();

@@ -69,8 +69,9 @@ using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* e
 /// The colors of a decoded picture.
 struct MicrotraceColors {
   std::uint32_t width, height;
-  std::uint32_t channels;   ///< 1: gray, 3: rgb, 4: rgb and alpha as stored in the file
-  MicrotraceNumber number;  ///< U8, U16 or F32
+  std::uint32_t channels;   ///< 1: gray, 2: gray and alpha, 3: rgb, 4: rgb and alpha
+  MicrotraceNumber number;  ///< U8 or U16, as stored in the file; or F32, premultiplied by alpha
+  std::int32_t is_first;    ///< nonzero if the file has further pictures, such as frames or pages
   /// Where the upper left pixel is in the whole picture, and the size of the whole picture. Files
   /// of some formats store only a part of it, or pixels beyond it.
   std::int32_t x0, y0;
@@ -86,8 +87,7 @@ struct MicrotraceColorSink {
   void (*complain)(void* context, const char* text);
 };
 
-/// Decodes the first picture of a file with this extension (lower case, no dot). Gray pictures are
-/// decoded without alpha.
+/// Decodes the first picture of a file with this extension (lower case, no dot).
 /// Returns 1 on success. Otherwise calls complain() and returns 0.
 using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, const char* extension,
                                        const MicrotraceColorSink* sink);
@@ -97,6 +97,6 @@ namespace microtrace::io {
 
 inline constexpr char kFindFormatName[] = "microtrace_find_format_v4";
 inline constexpr char kEncodeName[] = "microtrace_encode_v5";
-inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v3";
+inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v4";
 
 }  // namespace microtrace::io

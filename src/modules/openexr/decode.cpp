@@ -64,14 +64,17 @@ std::vector<std::string> rgb_of(const Imf::ChannelList& channels) {
   return {};
 }
 
-/// Returns the names of the color channels. For gray images, the name is Y or that of the only
-/// channel.
+/// Returns the names of the color channels, and of alpha if it exists. For gray images, the name is
+/// Y or that of the only channel.
 std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
   std::vector<std::string> rgb = rgb_of(channels);
   if (!rgb.empty()) return rgb;
   if (channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr)
     throw std::runtime_error("its colors are luminance and chroma; convert it to R, G and B");
-  if (channels.findChannel("Y") != nullptr) return {"Y"};
+  if (channels.findChannel("Y") != nullptr) {
+    if (channels.findChannel("A") != nullptr) return {"Y", "A"};
+    return {"Y"};
+  }
   auto first = channels.begin();
   if (first != channels.end() && ++channels.begin() == channels.end()) return {first.name()};
   throw std::runtime_error("it has neither channels R, G and B nor a single one");
@@ -104,6 +107,7 @@ void decode(File& file, const MicrotraceColorSink& sink) {
                                 .height = length(window.min.y, window.max.y),
                                 .channels = static_cast<std::uint32_t>(names.size()),
                                 .number = kMicrotraceF32,
+                                .is_first = 0,
                                 .x0 = distance(whole.min.x, window.min.x),
                                 .y0 = distance(whole.min.y, window.min.y),
                                 .whole_width = length(whole.min.x, whole.max.x),
@@ -150,7 +154,7 @@ void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_decode_colors_v3(
+__attribute__((visibility("default"))) int microtrace_decode_colors_v4(
     const void* bytes, std::size_t size, const char* /*extension*/,
     const MicrotraceColorSink* sink) {
   try {

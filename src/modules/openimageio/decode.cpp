@@ -114,28 +114,66 @@ void require_readable_tiff(std::string_view file) {
     throw std::runtime_error("it is a TIFF file of 16 bits in which white is 0");
 }
 
+/// A file in memory and its reader.
+class MemoryFile {
+ public:
+  MemoryFile(const void* bytes, std::size_t size, const std::string& extension)
+      : memory_(const_cast<void*>(bytes), size) {  // which is never written to
+    ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);  // returns colors as stored in the file
+    reader_ = ImageInput::create(extension, false, &config, &memory_);
+    if (!reader_ || !reader_->supports("ioproxy") ||
+        std::string(reader_->format_name()) == "null") {
+      static_cast<void>(OIIO::geterror());
+      throw std::runtime_error("OpenImageIO can't read files with this extension");
+    }
+    reader_->set_ioproxy(&memory_);
+    if (!reader_->open("picture." + extension, spec_, config)) throw complaint(reader_->geterror());
+  }
+
+  [[nodiscard]] ImageInput& reader() { return *reader_; }
+  [[nodiscard]] const ImageSpec& spec() const { return spec_; }
+
+ private:
+  OIIO::Filesystem::IOMemReader memory_;
+  std::unique_ptr<ImageInput> reader_;
+  ImageSpec spec_;
+};
+
+/// Returns true if the file has more than one picture. Opens it again, because readers of some
+/// formats can't return to the first one.
+bool has_further_pictures(const void* bytes, std::size_t size, const std::string& extension) {
+  MemoryFile file(bytes, size, extension);
+  const bool result = file.reader().seek_subimage(1, 0);
+  static_cast<void>(file.reader().geterror());  // that there is no second one
+  return result;
+}
+
+/// Multiplies the colors of pixels by alpha, their last channel.
+void premultiply(float* samples, std::size_t pixels, std::size_t channels) {
+  for (float* pixel = samples; pixel != samples + pixels * channels; pixel += channels) {
+    for (std::size_t c = 0; c + 1 < channels; ++c) pixel[c] *= pixel[channels - 1];
+  }
+}
+
 void decode(const void* bytes, std::size_t size, const std::string& extension,
             const MicrotraceColorSink& sink) {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);  // uses only the calling thread
-  OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // never writes to `bytes`
-  const std::string name = "picture." + extension;
-  ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);  // returns colors as stored in the file
-  const std::unique_ptr<ImageInput> reader = ImageInput::create(extension, false, &config, &memory);
-  if (!reader || !reader->supports("ioproxy") || std::string(reader->format_name()) == "null") {
-    static_cast<void>(OIIO::geterror());
-    throw std::runtime_error("OpenImageIO can't read files with this extension");
-  }
-  ImageSpec spec;
-  reader->set_ioproxy(&memory);
-  if (!reader->open(name, spec, config)) throw complaint(reader->geterror());
+  MemoryFile input(bytes, size, extension);
+  ImageInput& reader = input.reader();
+  const ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth != 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
     throw std::runtime_error("it is no plain picture of two dimensions");
   const int first = first_color(spec);
-  const bool has_alpha = spec.alpha_channel == first + 3 && spec.nchannels > first + 3;
-  const int count = spec.nchannels - first < 3 ? 1 : has_alpha ? 4 : 3;
-  const std::string_view format = reader->format_name();
+  const int colors_count = spec.nchannels - first < 3 ? 1 : 3;
+  const int alpha = first + colors_count;
+  // OpenImageIO 2.4 sets no alpha_channel for GIF and for gray TGA files of version 1.
+  const bool has_alpha =
+      alpha < spec.nchannels &&
+      (spec.alpha_channel == alpha || spec.channel_name(alpha) == "A" || spec.nchannels == 2);
+  const int count = colors_count + (has_alpha ? 1 : 0);
+  const std::string_view format = reader.format_name();
   const std::string_view file(static_cast<const char*>(bytes), size);
   if (format == "tiff") require_readable_tiff(file);
   const Orientation orientation(
@@ -147,6 +185,7 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
                                 .height = height,
                                 .channels = static_cast<std::uint32_t>(count),
                                 .number = number_of(spec),
+                                .is_first = has_further_pictures(bytes, size, extension) ? 1 : 0,
                                 .x0 = 0,
                                 .y0 = 0,
                                 .whole_width = width,
@@ -156,20 +195,25 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   const TypeDesc type = type_of(colors.number);
   const std::size_t pixel = type.size() * colors.channels;
   std::vector<char> stored(orientation.is_upright() ? 0 : pixel * width * height);
-  const bool is_read = reader->read_image(0, 0, first, first + count, type,
-                                          stored.empty() ? samples : stored.data());
+  const bool is_read =
+      reader.read_image(0, 0, first, first + count, type, stored.empty() ? samples : stored.data());
   // For TIFF files that were cut off, only the error tells of the missing lines.
-  const std::string error = reader->geterror();
+  const std::string error = reader.geterror();
   if (!is_read || !error.empty()) throw complaint(error);
+  if (has_alpha && type == TypeDesc::FLOAT &&
+      spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0) {
+    premultiply(reinterpret_cast<float*>(stored.empty() ? samples : stored.data()),
+                std::size_t{width} * height, colors.channels);
+  }
   if (!stored.empty()) orientation.turn(stored.data(), static_cast<char*>(samples), pixel);
-  reader->close();
+  reader.close();
 }
 
 }  // namespace
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_decode_colors_v3(
+__attribute__((visibility("default"))) int microtrace_decode_colors_v4(
     const void* bytes, std::size_t size, const char* extension, const MicrotraceColorSink* sink) {
   try {
     decode(bytes, size, extension, *sink);

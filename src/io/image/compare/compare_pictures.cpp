@@ -1,3 +1,4 @@
+#include "base/memory_account.hpp"
 #include "base/system/float_environment.hpp"
 #include "io/image/encode/eight_bits.hpp"
 
@@ -24,8 +25,10 @@ void require_equal_sizes(const StoredPicture& a, const StoredPicture& b) {
 
 /// Converts floats to 8 bits as save_image() does it.
 StoredPicture with_eight_bits(const StoredPicture& picture, const Display& display) {
-  Film film(picture.size, picture.has_alpha ? Film::Alpha::premultiplied : Film::Alpha::none);
+  Film film({.width = picture.size.width, .height = 1},
+            picture.has_alpha ? Film::Alpha::premultiplied : Film::Alpha::none);
   film.display = display;
+  take_memory(picture.samples.size() * sizeof(float), "converting a picture to 8 bits");
   StoredPicture result = picture;
   result.kind = StoredPicture::Samples::integers;
   const std::size_t channels = picture.has_alpha ? 4 : 3;
@@ -34,10 +37,10 @@ StoredPicture with_eight_bits(const StoredPicture& picture, const Display& displ
     float* samples = &result.samples[std::size_t{4} * y * picture.size.width];
     for (std::uint32_t x = 0; x < picture.size.width; ++x) {
       const float* sample = samples + std::size_t{4} * x;
-      film.at(x, y) = Vec3(sample[0], sample[1], sample[2]);
-      if (picture.has_alpha) film.alpha_at(x, y) = sample[3];
+      film.at(x, 0) = Vec3(sample[0], sample[1], sample[2]);
+      if (picture.has_alpha) film.alpha_at(x, 0) = sample[3];
     }
-    io::encode_row(film, y, row.data());
+    io::encode_row(film, 0, row.data());
     for (std::uint32_t x = 0; x < picture.size.width; ++x) {
       for (std::size_t c = 0; c < channels; ++c)
         samples[std::size_t{4} * x + c] = static_cast<float>(row[channels * x + c]) / 255.0F;
@@ -46,18 +49,17 @@ StoredPicture with_eight_bits(const StoredPicture& picture, const Display& displ
   return result;
 }
 
-/// The value of a sample. float32 has rounded those of 8 and 16 bits.
-double value_of(float sample, StoredPicture::Samples kind) {
-  constexpr double kMost = 65535;  // a multiple of 255
-  const double rounded{sample}, exact = std::round(rounded * kMost) / kMost;
-  const bool is_exact =
-      kind == StoredPicture::Samples::integers && static_cast<float>(exact) == sample;
-  return is_exact ? exact : rounded;
-}
-
+/// The absolute difference of two samples. That of integers is rounded only once, so that equal
+/// differences of integers are equal numbers.
 double difference_of(float a, float b, StoredPicture::Samples kind) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
-  const double difference = std::abs(value_of(a, kind) - value_of(b, kind));
+  // 65535 is a multiple of 255, so samples of 8 and 16 bits are multiples of 1 / 65535.
+  constexpr double kMost = 65535;
+  const bool is_integer = kind == StoredPicture::Samples::integers;
+  const auto value = [&](double sample) {
+    return is_integer ? std::round(sample * kMost) : sample;
+  };
+  const double difference = std::abs(value(a) - value(b)) / (is_integer ? kMost : 1);
   return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
 }
 
@@ -119,6 +121,8 @@ Film difference_picture(const StoredPicture& a, const StoredPicture& b, const Di
   const FloatEnvironment environment;
   constexpr float kAmplification = 8;
   return in_one_kind(a, b, display, [&](const StoredPicture& p, const StoredPicture& q) {
+    take_memory(std::uint64_t{p.size.width} * p.size.height * sizeof(Vec3),
+                "the difference of two pictures");
     Film film(p.size);
     for (std::uint32_t y = 0; y < p.size.height; ++y) {
       for (std::uint32_t x = 0; x < p.size.width; ++x) {

@@ -51,12 +51,22 @@ StoredPicture stored(const Image& image) {
       image.samples);
 }
 
+[[noreturn]] void refuse_further_pictures(const std::string& name) {
+  throw Error(
+      ErrorKind::unsupported, name,
+      "contains several pictures, such as frames or pages; store each in a file of its own");
+}
+
+/// Returns true if a PNG file has an animation, whose chunk acTL is before the first IDAT.
+bool is_animated_png(std::string_view bytes) {
+  return bytes.substr(0, bytes.find("IDAT")).find("acTL") != std::string_view::npos;
+}
+
 StoredPicture load(const std::filesystem::path& path) {
   const std::string bytes = io::read_file(path, io::kMaxFileSize);
   const std::string name = path.string();
   const std::string_view start(bytes);
-  if (start.starts_with("P3") || start.starts_with("P6"))
-    return stored(io::decode_ppm(bytes, name));
+  if (io::is_ppm(start)) return stored(io::decode_ppm(bytes, name));
   const bool is_codec = start.starts_with("\x89PNG") || start.starts_with("\xff\xd8\xff") ||
                         (start.starts_with("RIFF") && start.substr(0, 12).ends_with("WEBP"));
   if (!is_codec) {
@@ -65,6 +75,7 @@ StoredPicture load(const std::filesystem::path& path) {
                           {.what = "a picture",
                            .hint = "it must be a picture in the format that its extension names",
                            .otherwise = "convert the picture to PNG"});
+    if (decoded.colors.is_first != 0) refuse_further_pictures(name);
     return std::visit(
         [&](const auto& samples) {
           return stored({.width = decoded.colors.width, .height = decoded.colors.height},
@@ -72,6 +83,7 @@ StoredPicture load(const std::filesystem::path& path) {
         },
         decoded.samples);
   }
+  if (start.starts_with("\x89PNG") && is_animated_png(start)) refuse_further_pictures(name);
   const io::DecodedImage decoded = io::decode_image(bytes);
   if (decoded.no_module) throw Error(ErrorKind::unsupported, name, decoded.complaint);
   if (decoded.too_large)

@@ -16,20 +16,22 @@ class PpmReader {
   PpmReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
   [[nodiscard]] Image read() {
-    const bool is_text = bytes_.starts_with("P3");
+    const bool is_text = bytes_[1] == '2' || bytes_[1] == '3';
+    const bool is_gray = bytes_[1] == '2' || bytes_[1] == '5';
     at_ = 2;
     const std::uint32_t width = number(1, 1U << 30), height = number(1, 1U << 30);
     const std::uint32_t most = number(1, 65535);
     const std::uint64_t pixels = std::uint64_t{width} * height;
     if (pixels > kMaxTexturePixels)
       throw Error(ErrorKind::limit, name_, "has more than 2^28 pixels");
-    const std::size_t count = static_cast<std::size_t>(pixels) * 3, size = most < 256 ? 1 : 2;
+    const std::size_t count = static_cast<std::size_t>(pixels) * (is_gray ? 1 : 3),
+                      size = most < 256 ? 1 : 2;
     // Exactly one white-space character separates the header from binary samples.
     if (!is_text && (++at_ > bytes_.size() || (bytes_.size() - at_) / size < count))
       fail("ends early");
     if (is_text && (bytes_.size() - at_) / 2 < count - 1) fail("ends early");
     take_memory(count * size, "the pixels of a picture");
-    Image image{.width = width, .height = height, .channels = 3};
+    Image image{.width = width, .height = height, .channels = is_gray ? 1U : 3U};
     const auto sample = [&]() -> std::uint32_t {
       if (is_text) return number(0, most);
       std::uint32_t value = static_cast<unsigned char>(bytes_[at_++]);
@@ -48,12 +50,23 @@ class PpmReader {
       fill(image.samples.emplace<std::vector<std::uint8_t>>(), 255);
     else
       fill(image.samples.emplace<std::vector<std::uint16_t>>(), 65535);
+    require_end(is_text);
     return image;
   }
 
  private:
   [[noreturn]] void fail(const std::string& problem) const {
     throw Error(ErrorKind::io, name_, "is a damaged PPM file: it " + problem);
+  }
+
+  /// Binary files may contain several pictures one after the other, text files may not.
+  void require_end(bool is_text) {
+    skip_space();
+    if (at_ >= bytes_.size()) return;
+    if (is_text) fail("has more samples than pixels");
+    throw Error(ErrorKind::unsupported, name_,
+                "has further data after its picture, such as the next frame of a sequence; store "
+                "each picture in a file of its own");
   }
 
   void skip_space() {
@@ -87,6 +100,11 @@ class PpmReader {
 };
 
 }  // namespace
+
+bool is_ppm(std::string_view bytes) {
+  return bytes.size() >= 2 && bytes[0] == 'P' &&
+         std::string_view("2356").find(bytes[1]) != std::string_view::npos;
+}
 
 Image decode_ppm(std::string_view bytes, const std::string& name) {
   return PpmReader(bytes, name).read();

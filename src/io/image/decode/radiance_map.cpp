@@ -39,7 +39,7 @@ std::vector<float> srgb_table() {
 /// sample i in linear light.
 template <class Value>
 void fill(const MicrotraceColors& colors, Value&& value, RadianceMap& map) {
-  const std::size_t channels = colors.channels, step = channels == 1 ? 0 : 1;
+  const std::size_t channels = colors.channels, step = channels < 3 ? 0 : 1;
   const auto begin = [](std::int32_t from) { return std::max(from, 0); };
   const auto end = [](std::int32_t from, std::uint32_t size, std::uint32_t whole) {
     return std::clamp<std::int64_t>(std::int64_t{from} + size, 0, whole);
