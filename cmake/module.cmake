@@ -3,6 +3,12 @@
 file(RELATIVE_PATH microtrace_modules_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/microtrace)
 cmake_path(SET microtrace_module_dir NORMALIZE ${PROJECT_BINARY_DIR}/src/cli/${microtrace_modules_from_program})
 
+# The loader knows only one name of each module.
+foreach(config ${CMAKE_BUILD_TYPE})
+  string(TOUPPER ${config} config)
+  set(CMAKE_${config}_POSTFIX "")
+endforeach()
+
 # microtrace_module(NAME SOURCE...) builds a shared object that the library loads on first use.
 function(microtrace_module name)
   set(target microtrace_${name})

@@ -2,6 +2,8 @@
 /// The vector and matrix types, which are GLM's. World space is right-handed with +y up; lengths
 /// have no unit.
 
+#include <type_traits>
+
 #include <glm/mat3x2.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -22,5 +24,6 @@ using DMat4 = glm::dmat4;    ///< node transforms, column-major as in glTF
 // GLM's alignment macros would give these types a different layout than in the compiled library.
 static_assert(sizeof(Vec2) == 8 && sizeof(Vec3) == 12 && sizeof(Vec4) == 16 && sizeof(DVec3) == 24,
               "GLM must be used without forced alignment");
+static_assert(std::is_trivially_copyable_v<Vec3>, "GLM must be used without GLM_FORCE_CTOR_INIT");
 
 }  // namespace microtrace

@@ -74,7 +74,8 @@ struct RenderOptions {
   /// If set, this function supplies the threads, for example from a host application's pool. It
   /// must call work() on up to `threads` threads at the same time, possibly including the caller's,
   /// and return when all calls have returned. A single call of work() also completes the rendering.
-  /// work() does not throw. If null, render() starts its own threads.
+  /// work() does not throw. If none is called, render() throws Error (usage). If null, render()
+  /// starts its own threads.
   std::function<void(unsigned threads, const std::function<void()>& work)> run_threads{};
   /// Called with the fraction of the picture that is done, in [0, 1]. Calls come from one thread at
   /// a time, but not always from the caller's. If the callback returns false, render() stops at

@@ -15,11 +15,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Returns the current folder at the first call. Relative paths of the program and the library
+/// refer to it, although the program may change the folder later.
+const fs::path& folder_at_start() {
+  static const fs::path folder = [] {
+    std::error_code error;  // the folder may have been removed
+    return fs::current_path(error);
+  }();
+  return folder;
+}
+
+/// Makes the first call when the library is loaded.
+[[gnu::constructor]] void remember_folder() {
+  static_cast<void>(folder_at_start());
+}
+
 /// Resolves symbolic links, because /usr/bin/microtrace may be a link to another prefix. Empty if
 /// the file does not exist.
 fs::path folder_of(const char* file) {
   std::error_code error;
-  const fs::path path = fs::canonical(file, error);
+  const fs::path path = fs::canonical(folder_at_start() / file, error);
   return error ? fs::path() : path.parent_path();
 }
 

@@ -55,7 +55,11 @@ Module open_module(const char* file) {
 ModuleFunction find_module_function(const char* file, const char* function) {
   Module module = open_module(file);
   if (module.path.empty()) {
-    return {.complaint = std::string("the module ") + file + " is not in " + module.sought};
+    const std::string place =
+        module.sought.empty()
+            ? "can't be sought, because the program's folder is unknown; set MICROTRACE_MODULE_PATH"
+            : "is not in " + module.sought;
+    return {.complaint = std::string("the module ") + file + " " + place};
   }
   if (module.handle != nullptr) {
     void* address = ::dlsym(module.handle, function);

@@ -94,6 +94,21 @@ function(check_pkg_config)
   file(WRITE ${WORK}/version.c "#include <microtrace/microtrace.h>\nint main(void) { return mt_version()[0] == 0; }\n")
   run(cc ${WORK}/version.c -o ${prefix}-version ${options} -Wl,-rpath,${prefix}/${LIBDIR})
   run(${prefix}-version)
+  check_other_folder("${options}")
+endfunction()
+
+# Builds a program with `options` into the installation, and starts it by a relative path. It changes the folder before it
+# loads a module.
+function(check_other_folder options)
+  if(NOT "draco" IN_LIST MODULES)
+    return()
+  endif()
+  run(cc ${SOURCE}/tests/package/other_folder.c -o ${prefix}/${BINDIR}/other_folder ${options})
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=../${LIBDIR} ./other_folder ${SOURCE}/scenes/gltf/draco.glb
+    WORKING_DIRECTORY ${prefix}/${BINDIR} RESULT_VARIABLE status ERROR_VARIABLE error)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "a program that changes the folder ends with ${status}: ${error}")
+  endif()
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})

@@ -2,7 +2,10 @@
 
 #include "base/system/float_environment.hpp"
 
+#include <microtrace/error.hpp>
+
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <latch>
 #include <memory>
@@ -98,7 +101,12 @@ unsigned run_on_threads(unsigned count, const HostThreads& host,
     work();
   };
   if (host) {
-    host(count, work_exactly);
+    std::atomic<bool> is_done{false};
+    host(count, [&] {
+      work_exactly();
+      is_done = true;
+    });
+    if (!is_done) throw Error(ErrorKind::usage, "run_threads", "returned without a call of work()");
     return 0;
   }
   const std::vector<Thread> started = start_threads(count - 1, work);

@@ -45,7 +45,8 @@ using HostThreads = std::function<void(unsigned threads, const std::function<voi
 
 /// Runs work() on `count` threads at the same time, including the calling one, and waits for all.
 /// Uses the host's threads if `host` isn't empty. Sets the FloatEnvironment of each thread. work()
-/// must not throw. Returns the number of threads that the system refused to start.
+/// must not throw. Returns the number of threads that the system refused to start. Throws Error
+/// (usage) if the host never calls work().
 unsigned run_on_threads(unsigned count, const HostThreads& host, const std::function<void()>& work);
 
 /// Returns true if the system can start this many threads now.

@@ -236,6 +236,12 @@ TEST(Queries, ResultsDoNotDependOnThreads) {
   EXPECT_EQ(many.locations, expected);
 }
 
+TEST(Queries, RefuseThreadsThatDoNotWork) {
+  ManyPoints many;
+  const QueryOptions idle{.run_threads = [](unsigned, const std::function<void()>&) {}};
+  EXPECT_THROW(many.solid.locate(many.points, many.locations, idle), Error);
+}
+
 TEST(Queries, ReportProgress) {
   ManyPoints many;
   double last = 0;
