@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -100,15 +101,19 @@ class MICROTRACE_EXPORT DatasetFolder {
   /// finished.
   [[nodiscard]] std::uint32_t missing() const;
 
-  /// Returns the views whose records are missing or damaged. Reads all records. Throws Error (io).
-  [[nodiscard]] std::vector<std::uint32_t> damaged() const;
+  /// Returns the views whose records are missing or damaged, and those with a file of another size
+  /// or, if `is_read(name)` is true, of other bytes. Reads all records and these files. Throws
+  /// Error (io).
+  [[nodiscard]] std::vector<std::uint32_t> damaged(
+      const std::function<bool(const std::string& name)>& is_read) const;
 
   /// True if `manifest.json` is undamaged, lists the files of all views, and the other files that
   /// it lists are whole.
   [[nodiscard]] bool is_finished() const;
 
-  /// Returns the files that `manifest.json` lists. Throws Error (io), for example if it is damaged.
-  [[nodiscard]] std::vector<DatasetFile> manifest() const;
+  /// Calls f for each file that `manifest.json` lists. Throws Error (io), for example if it is
+  /// damaged.
+  void for_each_listed(const std::function<void(const DatasetFile& file)>& f) const;
 
   /// Writes `manifest.json`, the list of all files of finished views and of the files `more`, with
   /// sizes and digests. Throws Error.

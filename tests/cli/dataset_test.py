@@ -239,19 +239,25 @@ class Dataset(ProgramTest):
         manifest.write_bytes(content)
         self.verify()
 
-    def test_damaged_annotations_of_other_shards_are_named(self):
-        options = ["--views", "orbit:4", *SMALL, "--formats", "coco"]
-        damages = {"quote": lambda line: line.replace(b'"', b"x", 1), "tab": lambda line: line.replace(b"\t", b"", 1)}
+    def test_the_last_shard_mends_files_of_others(self):
+        options = ["--views", "orbit:4", *SMALL, "--formats", "png,coco,bop"]
+        self.dataset(*options)
+        whole = self.contents()
+
+        def without_end(content):
+            return content[:-1]
+
+        def changed(content):
+            return content.replace(b'"', b"x", 1)
+
+        damages = {"000002.png": without_end, "annotations/000002.coco.txt": changed, "annotations/000002.bop.txt": changed,
+                   "bop/train/000000/depth/000002.png": without_end}
         for name, damage in damages.items():
-            for shard in ("1/2", "2/2"):
-                self.dataset(*options, "--shard", shard, output=name)
-            folder = self.folder / name
-            (part,) = (folder / "annotations").glob("000002*")
-            lines = part.read_bytes().split(b"\n")
-            part.write_bytes(b"\n".join([lines[0], damage(lines[1]), *lines[2:]]))
-            (first,) = (folder / "annotations").glob("000000*")
-            first.unlink()
-            self.assertIn("annotations of view 2 are damaged", self.dataset(*options, "--shard", "1/2", output=name, code=5))
+            file = self.folder / "out" / name
+            file.write_bytes(damage(file.read_bytes()))
+            (self.folder / "out/000000.png").unlink()
+            self.assertIn("rendered 2 views", self.dataset(*options, "--shard", "1/2"))
+            self.assertEqual(self.contents(), whole)
 
     def test_one_of_two_data_sets_gets_a_new_folder(self):
         for _ in range(10):

@@ -172,8 +172,8 @@ void write_dataset(const Arguments& arguments) {
   const std::uint32_t missing = folder.missing();
   // The files of a finished data set may be another user's, and read-only.
   if (missing == 0 && (rendered != 0 || !folder.is_finished())) {
-    // A power failure can damage the records of shards that have ended.
-    for (const std::uint32_t view : folder.damaged()) {
+    // A power failure can damage the files of shards that have ended.
+    for (const std::uint32_t view : folder.damaged(&is_annotations)) {
       dataset.render(folder, view);
       ++rendered;
     }

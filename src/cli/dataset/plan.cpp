@@ -133,9 +133,15 @@ std::string stem_of(const Arguments& arguments, const DatasetView& view, std::ui
                            view.name);
 }
 
+constexpr std::string_view kAnnotations = "annotations/";
+
+bool is_annotations(const std::string& name) {
+  return name.starts_with(kAnnotations);
+}
+
 std::string annotations_name(const Arguments& arguments, const DatasetView& view,
                              std::uint32_t index, DatasetFormat format) {
-  return "annotations/" + stem_of(arguments, view, index) +
+  return std::string(kAnnotations) + stem_of(arguments, view, index) +
          (format == DatasetFormat::bop ? ".bop.txt" : ".coco.txt");
 }
 

@@ -23,6 +23,9 @@ namespace microtrace::cli {
 [[nodiscard]] std::string annotations_name(const Arguments& arguments, const DatasetView& view,
                                            std::uint32_t index, DatasetFormat format);
 
+/// Returns true for the names of annotations_name().
+[[nodiscard]] bool is_annotations(const std::string& name);
+
 /// The name of the picture that the data set has of a view, for COCO; empty if it has none.
 [[nodiscard]] std::string picture_name(const Arguments& arguments, const DatasetView& view,
                                        std::uint32_t index);

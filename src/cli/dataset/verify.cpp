@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <span>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -25,19 +25,32 @@ namespace fs = std::filesystem;
 }
 
 /// Checks that the manifest begins with the files of all views, as recorded, and the files that it
-/// lists after them, which belong to the whole data set. Returns the number of the latter.
-std::size_t check_manifest(const DatasetFolder& folder, const std::vector<DatasetFile>& recorded) {
+/// lists after them, which belong to the whole data set. Returns the number of all files.
+std::size_t check_manifest(const DatasetFolder& folder) {
   std::error_code error;
   if (!fs::exists(folder.path() / "manifest.json", error))
     fail(folder, "manifest.json", "is missing; continue with microtrace dataset");
-  const std::vector<DatasetFile> listed = folder.manifest();
-  const auto differs = std::ranges::mismatch(recorded, listed);
-  if (differs.in1 != recorded.end())
-    fail(folder, "manifest.json", "differs from the records; continue with microtrace dataset");
-  const std::span<const DatasetFile> common(differs.in2, listed.end());
-  if (const auto name = first_damaged(folder.path(), common))
-    fail(folder, *name, "is missing or was changed; continue with microtrace dataset");
-  return common.size() + 1;
+  std::vector<DatasetFile> files;  // of the last view
+  std::uint32_t view = 0;
+  std::size_t next = 0, count = 1;
+  const auto next_recorded = [&]() -> std::optional<DatasetFile> {
+    for (; next == files.size(); next = 0) {
+      if (view == folder.identity().views) return std::nullopt;
+      files = folder.files(view++).value_or(std::vector<DatasetFile>());
+    }
+    return files[next++];
+  };
+  constexpr const char* kDiffers = "differs from the records; continue with microtrace dataset";
+  folder.for_each_listed([&](const DatasetFile& file) {
+    ++count;
+    if (const auto recorded = next_recorded()) {
+      if (file != *recorded) fail(folder, "manifest.json", kDiffers);
+    } else if (const auto name = first_damaged(folder.path(), {&file, 1})) {
+      fail(folder, *name, "is missing or was changed; continue with microtrace dataset");
+    }
+  });
+  if (next_recorded()) fail(folder, "manifest.json", kDiffers);
+  return count;
 }
 
 /// The arguments with which the data set was started.
@@ -78,14 +91,12 @@ void verify_dataset(const Arguments& arguments) {
   const DatasetFolder folder(fs::absolute(arguments.output));
   const std::uint32_t count = folder.identity().views;
   std::vector<std::uint32_t> finished;
-  std::vector<DatasetFile> recorded;
   for (std::uint32_t view = 0; view < count; ++view) {
     const auto known = folder.files(view);
     if (!known) continue;
     if (const auto name = first_damaged(folder.path(), *known))
       fail(folder, *name, "is missing or was changed since it was rendered");
     finished.push_back(view);
-    recorded.insert(recorded.end(), known->begin(), known->end());
   }
   const std::size_t wanted = std::min<std::size_t>(arguments.dataset.redraw, finished.size());
   std::vector<std::uint32_t> sample;
@@ -101,7 +112,7 @@ void verify_dataset(const Arguments& arguments) {
                 "lacks " + std::to_string(count - finished.size()) + " of " +
                     counted(count, "view") + "; continue with microtrace dataset");
   }
-  const std::size_t files = recorded.size() + check_manifest(folder, recorded);
+  const std::size_t files = check_manifest(folder);
   if (arguments.quiet) return;
   std::fprintf(stderr, "%s: %s, %s, all whole; %s rendered again: the same\n",
                printable(arguments.output.string()).c_str(), counted(count, "view").c_str(),
