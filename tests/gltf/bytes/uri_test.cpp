@@ -27,6 +27,12 @@ TEST(GltfUri, Base64TestVectors) {
   EXPECT_EQ(decode_base64("Zm8"), "fo");
 }
 
+TEST(GltfUri, Base64MayHaveWhiteSpace) {
+  EXPECT_EQ(decode_base64(" Zm 9v\r\nYm\tFy\n"), "foobar");
+  EXPECT_EQ(decode_base64("Zg\n=\f= "), "f");
+  EXPECT_EQ(decode_base64(" \n"), "");
+}
+
 TEST(GltfUri, Base64RoundTrips) {
   std::string bytes;
   for (int i = 0; i < 600; ++i) {
@@ -36,8 +42,8 @@ TEST(GltfUri, Base64RoundTrips) {
 }
 
 TEST(GltfUri, InvalidBase64IsRefused) {
-  for (const char* text : {"Z", "Zg=", "Z===", "====", "Zm9v=", "Zm9vZ", "Zg==Zg==", "Zm 9", "Zm9-",
-                           "Zm\n9", "=m9v"}) {
+  for (const char* text : {"Z", "Zg=", "Z===", "====", "Zm9v=", "Zm9vZ", "Zg==Zg==", "Zm9-",
+                           "Zm\v9", "Z m9 v Z", "Zm 9v =", "=m9v"}) {
     EXPECT_FALSE(decode_base64(text)) << text;
   }
 }

@@ -53,7 +53,7 @@ std::string decode_data_uri(const Asset& asset, const Element& uri) {
   take_memory(data->is_base64 ? size / 4 * 3 : size, "the data of data URIs");
   std::optional<std::string> bytes = decoded(*data);
   if (!bytes && data->is_base64) {
-    asset.fail(uri, "is not base64: A-Z a-z 0-9 + / in groups of four, without white space");
+    asset.fail(uri, "is not base64: A-Z a-z 0-9 + / in groups of four");
   }
   if (!bytes) asset.fail(uri, "has a % without two hexadecimal digits; write %25 for %");
   return std::move(*bytes);

@@ -1,5 +1,7 @@
 #include "io/gltf/bytes/uri.hpp"
 
+#include "base/memory_account.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -32,6 +34,24 @@ int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   const char l = lower(c);
   return l >= 'a' && l <= 'f' ? l - 'a' + 10 : -1;
+}
+
+/// Decodes base64 without white space.
+std::optional<std::string> decode_digits(std::string_view text) {
+  const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
+  const std::size_t digits = text.size() - padding;
+  if (digits % 4 == 1 || (padding != 0 && text.size() % 4 != 0)) return std::nullopt;
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < digits; ++i) {
+    const int digit = base64_digit(text[i]);
+    if (digit < 0) return std::nullopt;
+    bits = bits << 6U | static_cast<std::uint32_t>(digit);
+    // In each group of four digits, every digit after the first completes a byte.
+    if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 0xFFU);
+  }
+  return bytes;
 }
 
 /// Returns true if a colon precedes the first slash, as it does after a scheme. Relative paths must
@@ -86,20 +106,14 @@ std::optional<std::string> decode_percent(std::string_view text) {
 }
 
 std::optional<std::string> decode_base64(std::string_view text) {
-  const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
-  const std::size_t digits = text.size() - padding;
-  if (digits % 4 == 1 || (padding != 0 && text.size() % 4 != 0)) return std::nullopt;
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  std::uint32_t bits = 0;
-  for (std::size_t i = 0; i < digits; ++i) {
-    const int digit = base64_digit(text[i]);
-    if (digit < 0) return std::nullopt;
-    bits = bits << 6U | static_cast<std::uint32_t>(digit);
-    // In each group of four digits, every digit after the first completes a byte.
-    if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 0xFFU);
-  }
-  return bytes;
+  std::optional<std::string> bytes = decode_digits(text);
+  if (bytes) return bytes;
+  const MemoryAccount copy = temporary_memory(text.size(), "the data of data URIs");
+  std::string digits(text);
+  std::erase_if(digits, [](char c) {
+    return std::string_view(" \t\n\f\r").find(c) != std::string_view::npos;
+  });
+  return digits.size() == text.size() ? std::nullopt : decode_digits(digits);
 }
 
 RelativePath relative_path(std::string_view uri) {

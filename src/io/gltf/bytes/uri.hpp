@@ -21,8 +21,8 @@ struct DataUri {
 /// Splits a data URI. Returns nothing if the URI has no comma or an empty parameter.
 [[nodiscard]] std::optional<DataUri> split_data_uri(std::string_view uri);
 
-/// Decodes base64 (RFC 4648, section 4). The padding may be omitted. Returns nothing if the text is
-/// not base64.
+/// Decodes base64 (RFC 4648, section 4). The padding may be omitted, and white space is skipped, as
+/// in browsers. Returns nothing if the text is not base64.
 [[nodiscard]] std::optional<std::string> decode_base64(std::string_view text);
 
 /// Decodes percent-encoding. Returns nothing if a % is not followed by two hexadecimal digits.
