@@ -41,6 +41,7 @@ RUN_ELSEWHERE = [
     r"(array=\$\(|SHARDS=\d+ )?sbatch .*|kubectl apply -f clusters/kubernetes/dataset.yaml$",  # slurm, python.tests
     r"ssh -L \d+:127\.0\.0\.1:\d+ server microtrace view ",  # microtrace view itself: view.server
     r"pip install --no-deps --target ~/oidn pyoidn$|export MICROTRACE_OIDN_PATH=",  # like python/tests/requirements.txt
+    r"ci/check_pictures( assets expected result --size 320x240)?$|mkdir -p expected && cp -R",  # check_pictures
     r"ffmpeg |assimp |ulimit |sudo apt",
     r"(find_package|target_link_libraries)\(|#include |(const )?auto |microtrace::|[\w.]+\.py FOLDER",  # package.consumer, docs.library
 ]
