@@ -2,7 +2,7 @@
 
 #include "render/lights/lighting.hpp"
 #include "render/luminance.hpp"
-#include "render/shading/beer_lambert.hpp"
+#include "render/media/beer_lambert.hpp"
 #include "render/shading/normals.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 #include "accel/ray_stream.hpp"
-#include "render/integrators/power_heuristic.hpp"
 #include "render/lights/emitters.hpp"
+#include "render/lights/power_heuristic.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "render/kernels/dispatch.hpp"
 #include "render/kernels/lane_access.hpp"
-#include "render/shading/beer_lambert.hpp"
+#include "render/media/beer_lambert.hpp"
 #include "simd/lane_count.hpp"
 
 #include <algorithm>

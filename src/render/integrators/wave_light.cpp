@@ -1,8 +1,8 @@
 /// The light that the paths of a wavefront reach by themselves: emission, environment and ground.
 
-#include "render/integrators/power_heuristic.hpp"
 #include "render/integrators/wave.hpp"
 #include "render/kernels/lane_access.hpp"
+#include "render/lights/power_heuristic.hpp"
 
 #include <algorithm>
 #include <cmath>

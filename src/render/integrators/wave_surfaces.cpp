@@ -3,7 +3,7 @@
 #include "render/bsdf/put_surface.hpp"
 #include "render/integrators/wave.hpp"
 #include "render/kernels/lane_access.hpp"
-#include "render/shading/beer_lambert.hpp"
+#include "render/media/beer_lambert.hpp"
 #include "render/shading/footprint.hpp"
 
 #include <algorithm>

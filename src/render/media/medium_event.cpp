@@ -1,10 +1,10 @@
 #include "render/media/medium_event.hpp"
 
 #include "render/bsdf/frame.hpp"
+#include "render/media/beer_lambert.hpp"
 #include "render/media/free_flight.hpp"
 #include "render/media/henyey_greenstein.hpp"
 #include "render/sampling/warps.hpp"
-#include "render/shading/beer_lambert.hpp"
 
 #include <algorithm>
 #include <cmath>
