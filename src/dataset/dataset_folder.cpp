@@ -244,11 +244,17 @@ std::vector<std::uint32_t> DatasetFolder::damaged(
 std::uint32_t DatasetFolder::missing() const {
   // One list of the folder is faster than a question for each record, above all over a network.
   std::vector<bool> is_finished(identity_.views);
-  for (const auto& entry : fs::directory_iterator(path_ / "records")) {
-    const std::string name = entry.path().filename().string();
+  std::error_code error;
+  fs::directory_iterator entry(path_ / "records", error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
     std::uint32_t view = 0;
     std::from_chars(name.data(), name.data() + name.size(), view);
-    if (view < identity_.views && entry.path() == record(view)) is_finished[view] = true;
+    if (view < identity_.views && entry->path() == record(view)) is_finished[view] = true;
+  }
+  if (error) {
+    throw Error(ErrorKind::io, (path_ / "records").string(),
+                "can't be listed: " + error_text(error.value()), error.value());
   }
   return static_cast<std::uint32_t>(std::ranges::count(is_finished, false));
 }

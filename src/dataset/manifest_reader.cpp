@@ -20,12 +20,15 @@ ManifestReader::ManifestReader(const std::filesystem::path& folder) : path_(fold
 
 std::optional<DatasetFile> ManifestReader::next() {
   for (std::string line; std::getline(lines_, line);) {
-    if (line == "[" || line == "]" || line.empty()) continue;
+    is_ended_ = line == "]";
+    if (line == "[" || is_ended_ || line.empty()) continue;
     if (line.back() == ',') line.pop_back();
     return read_own(line, path_, read_file_entry);
   }
   if (lines_.is_open() && !lines_.eof())
     throw Error(ErrorKind::io, path_.string(), "can't be read");
+  if (lines_.is_open() && !is_ended_)
+    throw Error(ErrorKind::io, path_.string(), "is cut off; continue with microtrace dataset");
   return std::nullopt;
 }
 

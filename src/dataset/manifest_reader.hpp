@@ -25,6 +25,7 @@ class ManifestReader {
  private:
   std::filesystem::path path_;
   std::ifstream lines_;
+  bool is_ended_ = false;
 };
 
 }  // namespace microtrace

@@ -50,13 +50,15 @@ class Compare(ProgramTest):
         palette = bytes([9, 9, 9, 200, 100, 50]) + bytes(3 * 126)
         self.write(name, b"GIF89a" + struct.pack("<2H3B", 2, 1, 0xF6, 0, 0) + palette + frames * frame + b";")
 
-    def tiff(self, name, extra_samples, pages=1):
-        """Writes one pixel of floats, with premultiplied (1) or unassociated (2) alpha."""
+    def tiff(self, name, extra_samples, pages=1, later_kind=0):
+        """Writes one pixel of floats, with premultiplied (1) or unassociated (2) alpha. `later_kind` is the NewSubfileType of all
+        pages but the first."""
         pixel = (0.25, 0.125, 0.0625, 0.5) if extra_samples == 1 else (0.5, 0.25, 0.125, 0.5)
         data = b"II*\0" + struct.pack("<I4H4H4f", 40, *[32] * 4, *[3] * 4, *pixel)
-        tags = [(256, 1), (257, 1), (258, 8), (259, 1), (262, 2), (273, 24), (277, 4), (278, 1), (279, 16), (338, extra_samples), (339, 16)]
+        tags = [(254, 0), (256, 1), (257, 1), (258, 8), (259, 1), (262, 2), (273, 24), (277, 4), (278, 1), (279, 16), (338, extra_samples), (339, 16)]
         for page in range(pages):
             after = len(data) + 2 + 12 * len(tags) + 4 if page + 1 < pages else 0
+            tags[0] = (254, later_kind if page > 0 else 0)
             entries = [struct.pack("<2H2I", tag, 3, 4 if tag in (258, 339) else 1, value) for tag, value in tags]
             data += struct.pack("<H", len(tags)) + b"".join(entries) + struct.pack("<I", after)
         self.write(name, data)
@@ -128,6 +130,12 @@ class Compare(ProgramTest):
         self.tiff("premultiplied.tif", 1)
         self.tiff("unassociated.tif", 2)
         self.compare("premultiplied.tif", "unassociated.tif", code=0)
+        # Environments ignore alpha.
+        for kind in ("premultiplied", "unassociated"):
+            self.draw(f"{kind}.exr", "--env", f"{kind}.tif", "--background", "env", "--integrator", "path", "--spp", "1", scene="sky.json")
+        values = self.difference("premultiplied.exr", "unassociated.exr")["first"]["values"]
+        for stored, multiplied in zip(values[1][:3], values[0][:3]):
+            self.assertAlmostEqual(stored, 2 * multiplied, 6)
 
     @unittest.skipUnless(shutil.which("oiiotool"), "openimageio-tools")
     def test_alpha_of_gray_exr(self):
@@ -147,14 +155,21 @@ class Compare(ProgramTest):
         self.tiff("two.tif", 1, pages=2)
         self.draw("a.png")
         png = (self.folder / "a.png").read_bytes()
-        animation = b"acTL" + struct.pack(">2I", 2, 0)
-        self.write("two.png", png[:33] + struct.pack(">I", 8) + animation + struct.pack(">I", zlib.crc32(animation)) + png[33:])
-        for name in ("cut.ppm", "two.ppm", "two.gif", "two.tif", "two.png"):
+        for name, frames in (("one.png", 1), ("two.png", 2)):
+            chunks = b""
+            for chunk in (b"tEXtTitle\0acTL IDAT", b"acTL" + struct.pack(">2I", frames, 0)):
+                chunks += struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk))
+            self.write(name, png[:33] + chunks + png[33:])
+        self.compare("a.png", "one.png", code=0)
+        self.tiff("thumbnail.tif", 1, pages=2, later_kind=1)
+        self.compare("thumbnail.tif", "thumbnail.tif", code=0)
+        self.write("two.webp", b"RIFF" + struct.pack("<I", 22) + b"WEBPVP8X" + struct.pack("<2I", 10, 2) + bytes(6))
+        for name in ("cut.ppm", "two.ppm", "two.gif", "two.tif", "two.png", "two.webp"):
             refused = self.compare(name, name, code=4)
             self.assertIn(b"in a file of its own", refused.stderr)
             self.assertEqual(refused.stdout, b"")
         self.ppm("more.ppm", 1, 1, [1, 2, 3, 4], text=True)
-        self.assertIn(b"more samples than pixels", self.compare("a.ppm", "more.ppm", code=5).stderr)
+        self.assertIn(b"further text", self.compare("a.ppm", "more.ppm", code=5).stderr)
 
     def test_equal_steps_are_equal_differences(self):
         for maximum in (255, 65535):

@@ -236,6 +236,9 @@ class Dataset(ProgramTest):
         for damage in (b"[\n]\n", content.replace(b'"size": ', b'"size": 1', 1)):
             manifest.write_bytes(damage)
             self.assertIn("differs from the records", self.verify(code=5))
+        for cut in (content.removesuffix(b"]\n"), content[:content.index(b'{"name": "coco.json"')]):
+            manifest.write_bytes(cut)
+            self.assertIn("manifest.json: is cut off", self.verify(code=5))
         manifest.write_bytes(content)
         self.verify()
 

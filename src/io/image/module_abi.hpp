@@ -69,9 +69,10 @@ using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* e
 /// The colors of a decoded picture.
 struct MicrotraceColors {
   std::uint32_t width, height;
-  std::uint32_t channels;   ///< 1: gray, 2: gray and alpha, 3: rgb, 4: rgb and alpha
-  MicrotraceNumber number;  ///< U8 or U16, as stored in the file; or F32, premultiplied by alpha
-  std::int32_t is_first;    ///< nonzero if the file has further pictures, such as frames or pages
+  std::uint32_t channels;   ///< 1: gray, 2: gray and alpha, 3: rgb, 4: rgb and alpha, as stored
+  MicrotraceNumber number;  ///< U8, U16 or F32
+  std::int32_t is_unassociated;  ///< nonzero if colors are not premultiplied by alpha
+  std::int32_t has_further;  ///< nonzero if the file has further pictures, such as frames or pages
   /// Where the upper left pixel is in the whole picture, and the size of the whole picture. Files
   /// of some formats store only a part of it, or pixels beyond it.
   std::int32_t x0, y0;

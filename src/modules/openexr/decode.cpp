@@ -94,7 +94,7 @@ std::uint32_t length(int first, int last) {
 
 /// Reads the colors of a file or of one of its parts.
 template <class File>
-void decode(File& file, const MicrotraceColorSink& sink) {
+void decode(File& file, bool has_further, const MicrotraceColorSink& sink) {
   const Imf::ChannelList& channels = file.header().channels();
   const std::vector<std::string> names = colors_of(channels);
   for (const std::string& name : names) {
@@ -107,7 +107,8 @@ void decode(File& file, const MicrotraceColorSink& sink) {
                                 .height = length(window.min.y, window.max.y),
                                 .channels = static_cast<std::uint32_t>(names.size()),
                                 .number = kMicrotraceF32,
-                                .is_first = 0,
+                                .is_unassociated = 0,
+                                .has_further = has_further ? 1 : 0,
                                 .x0 = distance(whole.min.x, window.min.x),
                                 .y0 = distance(whole.min.y, window.min.y),
                                 .whole_width = length(whole.min.x, whole.max.x),
@@ -124,30 +125,34 @@ void decode(File& file, const MicrotraceColorSink& sink) {
   file.readPixels(window.min.y, window.max.y);
 }
 
-/// Returns the number of the first part that has colors, or else 0.
-int part_with_colors(const Imf::MultiPartInputFile& file) {
+/// Returns the numbers of the parts that have colors.
+std::vector<int> parts_with_colors(const Imf::MultiPartInputFile& file) {
+  std::vector<int> parts;
   for (int part = 0; part < file.parts(); ++part) {
     const Imf::Header& header = file.header(part);
     const bool is_deep = header.hasType() && Imf::isDeepData(header.type());
-    if (!is_deep && !rgb_of(header.channels()).empty()) return part;
+    if (!is_deep && !rgb_of(header.channels()).empty()) parts.push_back(part);
   }
-  return 0;
+  return parts;
 }
 
 void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink) {
   // Makes OpenEXR reject larger images before it allocates memory for their lines.
   Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
   MemoryFile memory(bytes, size);
+  bool has_further = false;
   {
-    Imf::MultiPartInputFile parts(memory, 0);  // 0: no threads
-    if (const int part = part_with_colors(parts); part != 0) {
-      Imf::InputPart file(parts, part);
-      return decode(file, sink);
+    Imf::MultiPartInputFile file(memory, 0);  // 0: no threads
+    const std::vector<int> parts = parts_with_colors(file);
+    has_further = parts.size() > 1;
+    if (!parts.empty() && parts.front() != 0) {
+      Imf::InputPart part(file, parts.front());
+      return decode(part, has_further, sink);
     }
   }
   memory.seekg(0);
   Imf::InputFile file(memory, 0);
-  decode(file, sink);
+  decode(file, has_further, sink);
 }
 
 }  // namespace

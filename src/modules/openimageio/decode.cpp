@@ -140,20 +140,19 @@ class MemoryFile {
   ImageSpec spec_;
 };
 
-/// Returns true if the file has more than one picture. Opens it again, because readers of some
-/// formats can't return to the first one.
+/// Returns true for a GIF file of several frames or a TIFF file of several pages. Smaller copies of
+/// a page don't count (NewSubfileType, TIFF 6.0, page 36). Opens the file again, because the reader
+/// of GIF can't return to the first frame.
 bool has_further_pictures(const void* bytes, std::size_t size, const std::string& extension) {
   MemoryFile file(bytes, size, extension);
-  const bool result = file.reader().seek_subimage(1, 0);
-  static_cast<void>(file.reader().geterror());  // that there is no second one
+  ImageInput& reader = file.reader();
+  const std::string_view format = reader.format_name();
+  bool result = false;
+  for (int i = 1; (format == "gif" || format == "tiff") && !result && reader.seek_subimage(i, 0);
+       ++i)
+    result = (reader.spec().get_int_attribute("tiff:subfiletype", 0) & 1) == 0;
+  static_cast<void>(reader.geterror());  // that there are no more
   return result;
-}
-
-/// Multiplies the colors of pixels by alpha, their last channel.
-void premultiply(float* samples, std::size_t pixels, std::size_t channels) {
-  for (float* pixel = samples; pixel != samples + pixels * channels; pixel += channels) {
-    for (std::size_t c = 0; c + 1 < channels; ++c) pixel[c] *= pixel[channels - 1];
-  }
 }
 
 void decode(const void* bytes, std::size_t size, const std::string& extension,
@@ -181,15 +180,17 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   auto width = static_cast<std::uint32_t>(spec.width);
   auto height = static_cast<std::uint32_t>(spec.height);
   if (orientation.is_transposed()) std::swap(width, height);
-  const MicrotraceColors colors{.width = width,
-                                .height = height,
-                                .channels = static_cast<std::uint32_t>(count),
-                                .number = number_of(spec),
-                                .is_first = has_further_pictures(bytes, size, extension) ? 1 : 0,
-                                .x0 = 0,
-                                .y0 = 0,
-                                .whole_width = width,
-                                .whole_height = height};
+  const MicrotraceColors colors{
+      .width = width,
+      .height = height,
+      .channels = static_cast<std::uint32_t>(count),
+      .number = number_of(spec),
+      .is_unassociated = spec.get_int_attribute("oiio:UnassociatedAlpha", 0),
+      .has_further = has_further_pictures(bytes, size, extension) ? 1 : 0,
+      .x0 = 0,
+      .y0 = 0,
+      .whole_width = width,
+      .whole_height = height};
   void* samples = sink.begin(sink.context, &colors);
   if (samples == nullptr) throw std::runtime_error("it is too large");
   const TypeDesc type = type_of(colors.number);
@@ -200,11 +201,6 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   // For TIFF files that were cut off, only the error tells of the missing lines.
   const std::string error = reader.geterror();
   if (!is_read || !error.empty()) throw complaint(error);
-  if (has_alpha && type == TypeDesc::FLOAT &&
-      spec.get_int_attribute("oiio:UnassociatedAlpha", 0) != 0) {
-    premultiply(reinterpret_cast<float*>(stored.empty() ? samples : stored.data()),
-                std::size_t{width} * height, colors.channels);
-  }
   if (!stored.empty()) orientation.turn(stored.data(), static_cast<char*>(samples), pixel);
   reader.close();
 }

@@ -28,7 +28,6 @@ StoredPicture with_eight_bits(const StoredPicture& picture, const Display& displ
   Film film({.width = picture.size.width, .height = 1},
             picture.has_alpha ? Film::Alpha::premultiplied : Film::Alpha::none);
   film.display = display;
-  take_memory(picture.samples.size() * sizeof(float), "converting a picture to 8 bits");
   StoredPicture result = picture;
   result.kind = StoredPicture::Samples::integers;
   const std::size_t channels = picture.has_alpha ? 4 : 3;
@@ -69,9 +68,11 @@ auto in_one_kind(const StoredPicture& a, const StoredPicture& b, const Display& 
                  const Compare& compare) {
   require_equal_sizes(a, b);
   using enum StoredPicture::Samples;
-  if (a.kind == floats && b.kind == integers) return compare(with_eight_bits(a, display), b);
-  if (a.kind == integers && b.kind == floats) return compare(a, with_eight_bits(b, display));
-  return compare(a, b);
+  if (a.kind == b.kind) return compare(a, b);
+  const MemoryAccount copy =
+      temporary_memory(a.samples.size() * sizeof(float), "converting a picture to 8 bits");
+  return a.kind == floats ? compare(with_eight_bits(a, display), b)
+                          : compare(a, with_eight_bits(b, display));
 }
 
 PictureDifference compare(const StoredPicture& a, const StoredPicture& b, double threshold) {

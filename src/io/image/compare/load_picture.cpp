@@ -8,7 +8,9 @@
 #include <microtrace/compare.hpp>
 #include <microtrace/error.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <new>
 #include <string_view>
@@ -57,9 +59,39 @@ StoredPicture stored(const Image& image) {
       "contains several pictures, such as frames or pages; store each in a file of its own");
 }
 
-/// Returns true if a PNG file has an animation, whose chunk acTL is before the first IDAT.
+/// Multiplies the colors of floats by alpha.
+void premultiply(StoredPicture& picture) {
+  if (picture.kind != StoredPicture::Samples::floats) return;
+  for (std::size_t i = 0; i < picture.samples.size(); i += 4) {
+    for (std::size_t c = 0; c < 3; ++c) picture.samples[i + c] *= picture.samples[i + 3];
+  }
+}
+
+/// Returns true if a WebP file has the flag of animations (WebP container specification).
+bool is_animated_webp(std::string_view bytes) {
+  constexpr std::size_t kName = 12, kFlags = 20;
+  constexpr unsigned kAnimation = 2;
+  return bytes.size() > kFlags && bytes.substr(kName, 4) == "VP8X" &&
+         (static_cast<unsigned char>(bytes[kFlags]) & kAnimation) != 0;
+}
+
+/// Returns true if a PNG file has several frames: a chunk acTL before the first IDAT that says so
+/// (PNG 3, section 11.3.6.1).
 bool is_animated_png(std::string_view bytes) {
-  return bytes.substr(0, bytes.find("IDAT")).find("acTL") != std::string_view::npos;
+  const auto number = [&](std::size_t place) {
+    std::uint64_t value = 0;
+    for (const char c : bytes.substr(place, 4)) value = value << 8U | static_cast<unsigned char>(c);
+    return value;
+  };
+  constexpr std::size_t kSignature = 8, kBesideData = 12;  // length, name and checksum of a chunk
+  for (std::size_t at = kSignature; bytes.size() - at >= kBesideData;) {
+    const std::string_view name = bytes.substr(at + 4, 4);
+    if (name == "IDAT") return false;
+    if (name == "acTL") return number(at + 8) > 1;
+    const std::uint64_t length = number(at);
+    at = static_cast<std::size_t>(std::min<std::uint64_t>(at + kBesideData + length, bytes.size()));
+  }
+  return false;
 }
 
 StoredPicture load(const std::filesystem::path& path) {
@@ -75,15 +107,19 @@ StoredPicture load(const std::filesystem::path& path) {
                           {.what = "a picture",
                            .hint = "it must be a picture in the format that its extension names",
                            .otherwise = "convert the picture to PNG"});
-    if (decoded.colors.is_first != 0) refuse_further_pictures(name);
-    return std::visit(
+    if (decoded.colors.has_further != 0) refuse_further_pictures(name);
+    StoredPicture picture = std::visit(
         [&](const auto& samples) {
           return stored({.width = decoded.colors.width, .height = decoded.colors.height},
                         decoded.colors.channels, samples);
         },
         decoded.samples);
+    if (decoded.colors.is_unassociated != 0) premultiply(picture);
+    return picture;
   }
-  if (start.starts_with("\x89PNG") && is_animated_png(start)) refuse_further_pictures(name);
+  if (start.starts_with("\x89PNG\r\n\x1a\n") && is_animated_png(start))
+    refuse_further_pictures(name);
+  if (start.starts_with("RIFF") && is_animated_webp(start)) refuse_further_pictures(name);
   const io::DecodedImage decoded = io::decode_image(bytes);
   if (decoded.no_module) throw Error(ErrorKind::unsupported, name, decoded.complaint);
   if (decoded.too_large)

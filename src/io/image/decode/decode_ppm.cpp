@@ -56,17 +56,17 @@ class PpmReader {
 
  private:
   [[noreturn]] void fail(const std::string& problem) const {
-    throw Error(ErrorKind::io, name_, "is a damaged PPM file: it " + problem);
+    throw Error(ErrorKind::io, name_, "is a damaged PGM or PPM file: it " + problem);
   }
 
   /// Binary files may contain several pictures one after the other, text files may not.
   void require_end(bool is_text) {
     skip_space();
     if (at_ >= bytes_.size()) return;
-    if (is_text) fail("has more samples than pixels");
+    if (is_text) fail("has further text after its samples");
     throw Error(ErrorKind::unsupported, name_,
-                "has further data after its picture, such as the next frame of a sequence; store "
-                "each picture in a file of its own");
+                "has further data after its picture, such as a next frame or padding; store each "
+                "picture in a file of its own");
   }
 
   void skip_space() {
