@@ -107,13 +107,13 @@ class MICROTRACE_EXPORT DatasetFolder {
   [[nodiscard]] std::vector<std::uint32_t> damaged(
       const std::function<bool(const std::string& name)>& is_read) const;
 
-  /// True if `manifest.json` is undamaged, lists the files of all views, and the other files that
-  /// it lists are whole.
-  [[nodiscard]] bool is_finished() const;
+  /// Checks that `manifest.json` is undamaged, lists the files of all views, and that the other
+  /// files that it lists are whole. Returns the number of these files and the manifest. Throws
+  /// Error (io) with the file that is not as it should be.
+  [[nodiscard]] std::uint64_t check_manifest() const;
 
-  /// Calls f for each file that `manifest.json` lists. Throws Error (io), for example if it is
-  /// damaged.
-  void for_each_listed(const std::function<void(const DatasetFile& file)>& f) const;
+  /// True if check_manifest() finds nothing wrong.
+  [[nodiscard]] bool is_finished() const;
 
   /// Writes `manifest.json`, the list of all files of finished views and of the files `more`, with
   /// sizes and digests. Throws Error.
@@ -121,6 +121,7 @@ class MICROTRACE_EXPORT DatasetFolder {
 
  private:
   [[nodiscard]] MICROTRACE_HIDDEN std::filesystem::path record(std::uint32_t view) const;
+  [[nodiscard]] MICROTRACE_HIDDEN std::vector<DatasetFile> recorded(std::uint32_t view) const;
 
   std::filesystem::path path_;
   DatasetIdentity identity_;

@@ -191,23 +191,39 @@ std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view)
   }
 }
 
-void DatasetFolder::for_each_listed(const std::function<void(const DatasetFile& file)>& f) const {
-  ManifestReader manifest(path_);
-  while (const std::optional<DatasetFile> file = manifest.next()) f(*file);
+/// Returns files(view). Throws Error (io) if the record is missing or damaged.
+std::vector<DatasetFile> DatasetFolder::recorded(std::uint32_t view) const {
+  auto known = files(view);
+  if (!known)
+    throw Error(ErrorKind::io, record(view).string(), "is damaged; run the same command again");
+  return std::move(*known);
 }
 
-bool DatasetFolder::is_finished() const try {
+std::uint64_t DatasetFolder::check_manifest() const {
+  const auto fail_at = [](const fs::path& file, const std::string& problem) {
+    throw Error(ErrorKind::io, file.string(), problem + "; continue with microtrace dataset");
+  };
+  const fs::path path = path_ / kManifest;
+  std::error_code error;
+  if (!fs::exists(path, error)) fail_at(path, "is missing");
   ManifestReader manifest(path_);
+  std::uint64_t count = 1;
   for (std::uint32_t view = 0; view < identity_.views; ++view) {
-    const auto known = files(view);
-    if (!known) return false;
-    for (const DatasetFile& file : *known) {
-      if (manifest.next() != file) return false;
+    for (const DatasetFile& file : recorded(view)) {
+      if (manifest.next() != file) fail_at(path, "differs from the records");
+      ++count;
     }
   }
   while (const std::optional<DatasetFile> file = manifest.next()) {
-    if (measure(path_, file->name) != file) return false;
+    if (measure(path_, file->name) != file)
+      fail_at(path_ / file->name, "is missing or was changed");
+    ++count;
   }
+  return count;
+}
+
+bool DatasetFolder::is_finished() const try {
+  static_cast<void>(check_manifest());
   return true;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::io) throw;
@@ -269,10 +285,7 @@ void DatasetFolder::write_manifest(std::span<const std::string> more) const {
     separator = ",\n";
   };
   for (std::uint32_t view = 0; view < identity_.views; ++view) {
-    const auto known = files(view);
-    if (!known)
-      throw Error(ErrorKind::io, record(view).string(), "is damaged; run the same command again");
-    for (const DatasetFile& file : *known) add(file);
+    for (const DatasetFile& file : recorded(view)) add(file);
   }
   for (const std::string& name : more) add(existing(path_, name));
   out.write("\n]\n");

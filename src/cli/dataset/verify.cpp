@@ -9,8 +9,8 @@
 #include <microtrace/dataset.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -22,35 +22,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const DatasetFolder& folder, const std::string& file, const char* reason) {
   throw Error(ErrorKind::io, (folder.path() / file).string(), reason);
-}
-
-/// Checks that the manifest begins with the files of all views, as recorded, and the files that it
-/// lists after them, which belong to the whole data set. Returns the number of all files.
-std::size_t check_manifest(const DatasetFolder& folder) {
-  std::error_code error;
-  if (!fs::exists(folder.path() / "manifest.json", error))
-    fail(folder, "manifest.json", "is missing; continue with microtrace dataset");
-  std::vector<DatasetFile> files;  // of the last view
-  std::uint32_t view = 0;
-  std::size_t next = 0, count = 1;
-  const auto next_recorded = [&]() -> std::optional<DatasetFile> {
-    for (; next == files.size(); next = 0) {
-      if (view == folder.identity().views) return std::nullopt;
-      files = folder.files(view++).value_or(std::vector<DatasetFile>());
-    }
-    return files[next++];
-  };
-  constexpr const char* kDiffers = "differs from the records; continue with microtrace dataset";
-  folder.for_each_listed([&](const DatasetFile& file) {
-    ++count;
-    if (const auto recorded = next_recorded()) {
-      if (file != *recorded) fail(folder, "manifest.json", kDiffers);
-    } else if (const auto name = first_damaged(folder.path(), {&file, 1})) {
-      fail(folder, *name, "is missing or was changed; continue with microtrace dataset");
-    }
-  });
-  if (next_recorded()) fail(folder, "manifest.json", kDiffers);
-  return count;
 }
 
 /// The arguments with which the data set was started.
@@ -112,7 +83,7 @@ void verify_dataset(const Arguments& arguments) {
                 "lacks " + std::to_string(count - finished.size()) + " of " +
                     counted(count, "view") + "; continue with microtrace dataset");
   }
-  const std::size_t files = check_manifest(folder);
+  const std::uint64_t files = folder.check_manifest();
   if (arguments.quiet) return;
   std::fprintf(stderr, "%s: %s, %s, all whole; %s rendered again: the same\n",
                printable(arguments.output.string()).c_str(), counted(count, "view").c_str(),
