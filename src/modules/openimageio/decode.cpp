@@ -140,16 +140,14 @@ class MemoryFile {
   ImageSpec spec_;
 };
 
-/// Returns true for a GIF file of several frames or a TIFF file of several pages. Smaller copies of
-/// a page don't count (NewSubfileType, TIFF 6.0, page 36). Opens the file again, because the reader
+/// Returns true if a GIF file has several frames, or a TIFF file several pages. Smaller copies of a
+/// page don't count (NewSubfileType, TIFF 6.0, page 36). Opens the file again, because the reader
 /// of GIF can't return to the first frame.
 bool has_further_pictures(const void* bytes, std::size_t size, const std::string& extension) {
   MemoryFile file(bytes, size, extension);
   ImageInput& reader = file.reader();
-  const std::string_view format = reader.format_name();
   bool result = false;
-  for (int i = 1; (format == "gif" || format == "tiff") && !result && reader.seek_subimage(i, 0);
-       ++i)
+  for (int i = 1; !result && reader.seek_subimage(i, 0); ++i)
     result = (reader.spec().get_int_attribute("tiff:subfiletype", 0) & 1) == 0;
   static_cast<void>(reader.geterror());  // that there are no more
   return result;
@@ -175,6 +173,8 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   const std::string_view format = reader.format_name();
   const std::string_view file(static_cast<const char*>(bytes), size);
   if (format == "tiff") require_readable_tiff(file);
+  const bool has_further =
+      (format == "gif" || format == "tiff") && has_further_pictures(bytes, size, extension);
   const Orientation orientation(
       spec, format == "hdr" ? orientation_of_hdr(file) : spec.get_int_attribute("Orientation", 1));
   auto width = static_cast<std::uint32_t>(spec.width);
@@ -186,7 +186,7 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
       .channels = static_cast<std::uint32_t>(count),
       .number = number_of(spec),
       .is_unassociated = spec.get_int_attribute("oiio:UnassociatedAlpha", 0),
-      .has_further = has_further_pictures(bytes, size, extension) ? 1 : 0,
+      .has_further = has_further ? 1 : 0,
       .x0 = 0,
       .y0 = 0,
       .whole_width = width,

@@ -4,13 +4,12 @@
 #include "io/image/decode/decode_colors.hpp"
 #include "io/image/decode/decode_image.hpp"
 #include "io/image/decode/decode_ppm.hpp"
+#include "io/image/decode/image_header.hpp"
 
 #include <microtrace/compare.hpp>
 #include <microtrace/error.hpp>
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <new>
 #include <string_view>
@@ -67,33 +66,6 @@ void premultiply(StoredPicture& picture) {
   }
 }
 
-/// Returns true if a WebP file has the flag of animations (WebP container specification).
-bool is_animated_webp(std::string_view bytes) {
-  constexpr std::size_t kName = 12, kFlags = 20;
-  constexpr unsigned kAnimation = 2;
-  return bytes.size() > kFlags && bytes.substr(kName, 4) == "VP8X" &&
-         (static_cast<unsigned char>(bytes[kFlags]) & kAnimation) != 0;
-}
-
-/// Returns true if a PNG file has several frames: a chunk acTL before the first IDAT that says so
-/// (PNG 3, section 11.3.6.1).
-bool is_animated_png(std::string_view bytes) {
-  const auto number = [&](std::size_t place) {
-    std::uint64_t value = 0;
-    for (const char c : bytes.substr(place, 4)) value = value << 8U | static_cast<unsigned char>(c);
-    return value;
-  };
-  constexpr std::size_t kSignature = 8, kBesideData = 12;  // length, name and checksum of a chunk
-  for (std::size_t at = kSignature; bytes.size() - at >= kBesideData;) {
-    const std::string_view name = bytes.substr(at + 4, 4);
-    if (name == "IDAT") return false;
-    if (name == "acTL") return number(at + 8) > 1;
-    const std::uint64_t length = number(at);
-    at = static_cast<std::size_t>(std::min<std::uint64_t>(at + kBesideData + length, bytes.size()));
-  }
-  return false;
-}
-
 StoredPicture load(const std::filesystem::path& path) {
   const std::string bytes = io::read_file(path, io::kMaxFileSize);
   const std::string name = path.string();
@@ -117,9 +89,7 @@ StoredPicture load(const std::filesystem::path& path) {
     if (decoded.colors.is_unassociated != 0) premultiply(picture);
     return picture;
   }
-  if (start.starts_with("\x89PNG\r\n\x1a\n") && is_animated_png(start))
-    refuse_further_pictures(name);
-  if (start.starts_with("RIFF") && is_animated_webp(start)) refuse_further_pictures(name);
+  if (io::is_animated(start)) refuse_further_pictures(name);
   const io::DecodedImage decoded = io::decode_image(bytes);
   if (decoded.no_module) throw Error(ErrorKind::unsupported, name, decoded.complaint);
   if (decoded.too_large)

@@ -105,7 +105,31 @@ ImageHeader header(ImageFormat format, const std::optional<Size>& size) {
   return {.format = format, .width = size->width, .height = size->height};
 }
 
+/// A chunk acTL before the first IDAT tells the number of frames (PNG 3, section 11.3.6.1).
+bool is_animated_png(std::string_view bytes) {
+  constexpr std::size_t kSignature = 8, kBesideData = 12;  // length, name and checksum of a chunk
+  std::size_t at = kSignature;
+  while (bytes.size() - at >= kBesideData) {
+    const std::string_view name = bytes.substr(at + 4, 4);
+    if (name == "IDAT") return false;
+    if (name == "acTL") return big_endian(bytes, at + 8, 4) > 1;
+    at += std::min(std::size_t{big_endian(bytes, at, 4)} + kBesideData, bytes.size() - at);
+  }
+  return false;
+}
+
+/// The chunk VP8X has a flag for animations (RFC 9649, section 2.7).
+bool is_animated_webp(std::string_view bytes) {
+  return bytes.size() > 20 && bytes.substr(12, 4) == "VP8X" && (byte(bytes, 20) & 2U) != 0;
+}
+
 }  // namespace
+
+bool is_animated(std::string_view bytes) {
+  const ImageFormat format = read_image_header(bytes).format;
+  return (format == ImageFormat::png && is_animated_png(bytes)) ||
+         (format == ImageFormat::webp && is_animated_webp(bytes));
+}
 
 bool is_cut_off_jpeg(std::string_view bytes) {
   if (!bytes.starts_with("\xff\xd8\xff")) return false;

@@ -19,6 +19,9 @@ struct ImageHeader {
 /// Reads the header of an image. `bytes` must be the whole file.
 [[nodiscard]] ImageHeader read_image_header(std::string_view bytes);
 
+/// Returns true for a PNG or WebP file with an animation of several frames.
+[[nodiscard]] bool is_animated(std::string_view bytes);
+
 /// True if the bytes begin as a JPEG, but lack its end. Some libraries fill the missing part with
 /// gray without an error.
 [[nodiscard]] bool is_cut_off_jpeg(std::string_view bytes);
