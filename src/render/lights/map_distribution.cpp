@@ -17,6 +17,9 @@ constexpr std::uint32_t kWhole = 1U << 24U;
 /// The minimum probability of a row, and of a cell within its row, relative to the mean. Even with
 /// 65537 rows or cells, this minimum exceeds 2^-24.
 constexpr double kFloor = 1.0 / 128;
+/// The number of entries of the rows' guide per row. More than one, because the rows of a sun use
+/// most of them.
+constexpr std::uint32_t kGuidesPerRow = 8;
 
 /// Converts weights to cumulative bounds that range from 0 to kWhole.
 void accumulate(std::span<const double> weights, double total, std::uint32_t* bounds) {
@@ -29,11 +32,11 @@ void accumulate(std::span<const double> weights, double total, std::uint32_t* bo
   *bounds = kWhole;
 }
 
-/// Makes the guide table. Entry g of `count` is the index of the last bound that does not exceed g
-/// / count, where the search for larger numbers starts.
+/// Fills a guide table. Entry g of `count` is the index of the last bound that does not exceed g /
+/// count, where the search for larger numbers starts.
 template <class Index>
-void make_guide(std::span<const std::uint32_t> bounds, Index* guide) {
-  const std::size_t count = bounds.size() - 1;
+void fill_guide(std::span<const std::uint32_t> bounds, std::span<Index> guide) {
+  const std::size_t count = guide.size();
   std::size_t i = 0;
   for (std::size_t g = 0; g < count; ++g) {
     // The least number for which entry g is used.
@@ -49,7 +52,7 @@ std::uint32_t number_of(float u) {
 }
 
 /// The index of the entry for a number in a guide with `count` entries.
-std::size_t entry_of(std::uint32_t number, std::uint32_t count) {
+std::size_t entry_of(std::uint32_t number, std::size_t count) {
   return std::uint64_t{number} * count >> 24U;
 }
 
@@ -61,7 +64,7 @@ MapDistribution::MapDistribution(const RadianceMap& map)
       height_(map.height),
       rows_(height_ + 1),
       row_bounds_(height_ + 2),
-      row_guide_(height_ + 1),
+      row_guide_(std::size_t{kGuidesPerRow} * (height_ + 1)),
       columns_(std::size_t{height_ + 1} * (width_ + 1)),
       column_guide_(std::size_t{height_ + 1} * width_) {
   const double step = std::numbers::pi / height_;
@@ -133,7 +136,8 @@ std::vector<double> MapDistribution::make_columns() {
     for (double& cell : cells) cell += least;
     std::uint32_t* bounds = &columns_[std::size_t{line} * (width_ + 1)];
     accumulate(cells, sum + least * width_, bounds);
-    make_guide({bounds, width_ + 1}, &column_guide_[std::size_t{line} * width_]);
+    fill_guide({bounds, width_ + 1},
+               std::span(column_guide_).subspan(std::size_t{line} * width_, width_));
   }
   return row_weights;
 }
@@ -148,7 +152,7 @@ void MapDistribution::make_rows(std::vector<double> weights) {
   const double least = sum > 0 ? kFloor * sum / (height_ + 1) : 1;
   for (double& weight : weights) weight += least;
   accumulate(weights, sum + least * (height_ + 1), row_bounds_.data());
-  make_guide(row_bounds_, row_guide_.data());
+  fill_guide(row_bounds_, std::span(row_guide_));
   const double step = std::numbers::pi / height_, wide = 2 * std::numbers::pi / width_;
   const double half = sin_radians(step / 4);
   for (std::uint32_t line = 0; line <= height_; ++line) {
@@ -188,7 +192,8 @@ void MapDistribution::select(Lanes which, const LaneFloats (&u)[2],
   const auto line_of = [&](int i) { return static_cast<std::uint32_t>(lanes.line[i]); };
   for_each([&](int i) {
     const std::uint32_t number = number_of(u[1][i]);
-    const Found line = find(row_bounds_.data(), row_guide_[entry_of(number, height_ + 1)], number);
+    const std::uint32_t guide = row_guide_[entry_of(number, row_guide_.size())];
+    const Found line = find(row_bounds_.data(), guide, number);
     lanes.line[i] = static_cast<std::int32_t>(line.index);
     lanes.y[i] = line.place;
     guides[i] =
