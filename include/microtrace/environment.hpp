@@ -27,8 +27,8 @@ inline constexpr float kMaxRadiance = 1e9F;
 struct Studio {};
 
 /// To add a kind of environment, add a struct to the variant `content`, its radiance in
-/// src/render/lights/environment_light.cpp, its readers in src/io/scene_json/light.cpp and
-/// src/cli/options/light_options.cpp, its members in docs/scene.schema.json and
+/// src/render/lights/environment/environment_light.cpp, its readers in src/io/scene_json/light.cpp
+/// and src/cli/options/light_options.cpp, its members in docs/scene.schema.json and
 /// docs/scene-format.md, its class in python/microtrace and python/src, and a line in
 /// docs/light.md.
 struct Environment {

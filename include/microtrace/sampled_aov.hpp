@@ -12,8 +12,9 @@
 namespace microtrace {
 
 /// To add a sampled AOV, add a value here and in kSampledAovs, its channels and its computation in
-/// src/render/aovs/sampled_aov_painter.cpp, its help text in src/cli/options/picture_options.cpp, a
-/// line in docs/outputs.md, and a test in tests/unit/render/sampled_aov_test.cpp.
+/// src/render/samples/sampled_aov_painter.cpp, its help text in
+/// src/cli/options/picture_options.cpp, a line in docs/outputs.md, and a test in
+/// tests/unit/render/sampled_aov_test.cpp.
 enum class SampledAov {
   variance,          ///< Y: estimated variance of the mean luminance (PixelSum::variance)
   samples,           ///< N: number of samples of the pixel

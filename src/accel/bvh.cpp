@@ -11,6 +11,7 @@
 #include "accel/resolve/open_side.hpp"
 #include "accel/resolve/packet_resolver.hpp"
 #include "accel/spawn/clear_point.hpp"
+#include "accel/spawn/dispatch.hpp"
 #include "accel/spawn/shape_spawn.hpp"
 #include "accel/spawn/spawn_among.hpp"
 #include "accel/stage_counts.hpp"

@@ -2,9 +2,9 @@
 #include "exact/first_hit.hpp"
 #include "explain/numbers.hpp"
 #include "explain/primitive.hpp"
-#include "render/camera_rays.hpp"
-#include "render/compositing.hpp"
-#include "render/view.hpp"
+#include "render/film/camera_rays.hpp"
+#include "render/prepared/view.hpp"
+#include "render/shading/compositing.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/explain.hpp>

@@ -2,13 +2,13 @@
 #include "base/system/float_environment.hpp"
 #include "base/system/processors.hpp"
 #include "render/aovs/aov_painter.hpp"
-#include "render/clock.hpp"
+#include "render/film/clock.hpp"
+#include "render/film/tiles.hpp"
 #include "render/prepared/content.hpp"
+#include "render/prepared/view.hpp"
 #include "render/samples/draw_at_random.hpp"
 #include "render/samples/lit_view.hpp"
 #include "render/tile_painter.hpp"
-#include "render/tiles.hpp"
-#include "render/view.hpp"
 #include "scene/validate/check_indices.hpp"
 
 #include <microtrace/denoise.hpp>

@@ -1,8 +1,8 @@
 #include "render/tile_painter.hpp"
 
-#include "render/film_pixel.hpp"
-#include "render/ray_batch.hpp"
-#include "render/tiles.hpp"
+#include "render/film/film_pixel.hpp"
+#include "render/film/ray_batch.hpp"
+#include "render/film/tiles.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 #pragma once
 /// Renders the film tile by tile with samples at fixed positions.
 
-#include "render/camera_rays.hpp"
-#include "render/samples/pixel_filter.hpp"
-#include "render/samples/sample_pattern.hpp"
+#include "render/film/camera_rays.hpp"
+#include "render/film/pixel_filter.hpp"
+#include "render/film/sample_pattern.hpp"
 
 #include <microtrace/film.hpp>
 #include <microtrace/render.hpp>

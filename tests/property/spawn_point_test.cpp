@@ -1,7 +1,7 @@
 // Compares the float64 bounds of hit points on flat surfaces with exact arithmetic. Most surfaces
 // are near coordinate planes, so their points have coordinates near 0.
 
-#include "accel/kernels/dispatch.hpp"
+#include "accel/spawn/dispatch.hpp"
 #include "accel/spawn/origin_search.hpp"
 #include "exact/first_hit.hpp"
 #include "exact/implicit.hpp"

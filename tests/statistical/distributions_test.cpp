@@ -1,11 +1,11 @@
 /// Tests the distributions of samplers that have no pdf to compare with, by Pearson's chi-square
 /// test.
-#include "render/ground/ground_light.hpp"
 #include "render/guiding/hemisphere_bins.hpp"
-#include "render/luminance.hpp"
+#include "render/lighting/ground_light.hpp"
 #include "render/media/free_flight.hpp"
 #include "render/sampling/time_slice.hpp"
 #include "render/sampling/warps.hpp"
+#include "scene/math/luminance.hpp"
 #include "support/pi.hpp"
 #include "support/shading/chi_square.hpp"
 

@@ -124,7 +124,8 @@ TEST(ExtremeLights, ProbabilitiesAddUpToOne) {
     const LightTree tree(all);
     for (int i = 0; i < 4; ++i) {
       const Vec3 p = i == 0 ? all[random.below(count)].low : random.place(), n = random.direction();
-      const float total = LightNodes<1>(*tree.nodes()).importance(tree.space().point<1>(p), n);
+      const float total =
+          LightNodes<1>(*tree.nodes()).importance(in_tree_units<1>(tree.space(), p), n);
       ASSERT_TRUE(std::isfinite(total) && total >= 0) << seed;
       double sum = 0;
       for (std::size_t light = 0; light < count; ++light) {

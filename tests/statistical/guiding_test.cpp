@@ -1,5 +1,5 @@
 /// Tests the sampling of environments that light a room through a window.
-#include "render/guiding/sky_visibility.hpp"
+#include "render/lighting/sky_visibility.hpp"
 #include "render/prepared/content.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/chi_square.hpp"

@@ -111,7 +111,7 @@ TEST(LightTree, UnitedBoundsContainBoth) {
     const Vec3 p = random.in_cube(12), n = random.direction();
     const LightTree tree(two);
     const auto importance = [&](std::uint32_t node) {
-      return LightNodes<1>(tree.nodes()[node]).importance(tree.space().point<1>(p), n);
+      return LightNodes<1>(tree.nodes()[node]).importance(in_tree_units<1>(tree.space(), p), n);
     };
     const std::uint32_t children = tree.nodes()->children;
     if (importance(children) > 0 || importance(children + 1) > 0) {

@@ -28,9 +28,13 @@ MAY_INCLUDE = {
     "capi": {"base", "scene"},
     "modules": {"io"},
 }
-# The folders of src/io/gltf. Each may include itself and those before it.
-GLTF_FOLDERS = ["document", "bytes", "extensions", "check", "material", "mesh", "animation", "pose", "scene"]
-MOST_FILES = 20  # in a folder of src/io/gltf
+# The folders of large parts. Each may include itself and those before it. A file beside them may include all of them.
+ORDERED_FOLDERS = {
+    "io/gltf": ["document", "bytes", "extensions", "check", "material", "mesh", "animation", "pose", "scene"],
+    "render": ["lanes", "sampling", "film", "bsdf", "media", "textures", "shading", "guiding", "lights", "lighting", "prepared",
+               "aovs", "integrators", "samples", "kernels"],
+}
+MOST_FILES = 20  # in a folder of these parts
 # Public headers that a part must not include.
 HIDDEN = {
     "base": {"scene", "camera", "film", "io", "render", "integrator", "aov", "sidecar", "bvh", "primitives"},
@@ -66,18 +70,19 @@ def includes(path):
             yield number, match[1]
 
 
-def gltf_complaints():
-    folder = ROOT / "src/io/gltf"
+def order_complaints(part, folders):
+    folder = ROOT / "src" / part
     for path in sorted(p for p in folder.rglob("*") if p.suffix in (".hpp", ".cpp")):
         place = path.relative_to(folder).parts
-        if len(place) < 2 or place[0] not in GLTF_FOLDERS:
-            yield f"src/io/gltf/{'/'.join(place)}: belongs in one of {', '.join(GLTF_FOLDERS)}"
+        if len(place) == 1:
             continue
-        allowed = GLTF_FOLDERS[:GLTF_FOLDERS.index(place[0]) + 1]
+        if place[0] not in folders:
+            yield f"src/{part}/{'/'.join(place)}: belongs in one of {', '.join(folders)}"
+            continue
+        allowed = folders[:folders.index(place[0]) + 1]
         for number, name in includes(path):
-            parts = name.split("/")
-            if parts[:2] == ["io", "gltf"] and parts[2] not in allowed:
-                yield f"src/io/gltf/{'/'.join(place)}:{number}: {place[0]} may not include {name}"
+            if name.startswith(part + "/") and name.removeprefix(part + "/").split("/")[0] not in allowed:
+                yield f"src/{part}/{'/'.join(place)}:{number}: {place[0]} may not include {name}"
     for sub in sorted(p for p in folder.rglob("*") if p.is_dir()):
         files = sum(p.is_file() for p in sub.iterdir())
         if files > MOST_FILES:
@@ -118,6 +123,7 @@ def umbrella_complaints():
             yield f"include/microtrace/microtrace.hpp: does not include <{name}>"
 
 
-found = [*complaints(), *gltf_complaints(), *umbrella_complaints()]
+ordered = (complaint for part, folders in ORDERED_FOLDERS.items() for complaint in order_complaints(part, folders))
+found = [*complaints(), *ordered, *umbrella_complaints()]
 print("\n".join(found) or "every include is within its layer")
 sys.exit(1 if found else 0)

@@ -1,7 +1,7 @@
 #pragma once
 /// Random input for shading kernels, and bitwise comparison of their output.
 
-#include "render/kernels/kernel.hpp"
+#include "render/lanes/shading_kernels.hpp"
 #include "simd/vector3.hpp"
 
 #include <bit>

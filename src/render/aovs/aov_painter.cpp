@@ -1,6 +1,6 @@
 #include "render/aovs/aov_painter.hpp"
 
-#include "render/tiles.hpp"
+#include "render/film/tiles.hpp"
 #include "scene/occupied_part.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 /// Renders AOVs tile by tile.
 
 #include "render/aovs/sights.hpp"
-#include "render/camera_rays.hpp"
+#include "render/film/camera_rays.hpp"
 
 #include <microtrace/aov.hpp>
 #include <microtrace/film.hpp>

@@ -1,9 +1,9 @@
 #include "render/aovs/feature_tracer.hpp"
 
-#include "render/lights/lighting.hpp"
-#include "render/luminance.hpp"
+#include "render/lighting/lighting.hpp"
 #include "render/media/beer_lambert.hpp"
-#include "render/shading/normals.hpp"
+#include "render/shading/points/normals.hpp"
+#include "scene/math/luminance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "render/bsdf/parameters.hpp"
 #include "render/media/nested_media.hpp"
-#include "render/shading/footprint.hpp"
+#include "render/shading/points/footprint.hpp"
 #include "render/shading/shading.hpp"
 
 #include <microtrace/bvh.hpp>

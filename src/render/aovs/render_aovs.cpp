@@ -2,9 +2,9 @@
 #include "base/system/float_environment.hpp"
 #include "base/system/processors.hpp"
 #include "render/aovs/aov_painter.hpp"
-#include "render/clock.hpp"
-#include "render/tiles.hpp"
-#include "render/view.hpp"
+#include "render/film/clock.hpp"
+#include "render/film/tiles.hpp"
+#include "render/prepared/view.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/render_aovs.hpp>

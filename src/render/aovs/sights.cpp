@@ -1,7 +1,7 @@
 #include "render/aovs/sights.hpp"
 
 #include "accel/intersect_fronts.hpp"
-#include "render/surfaces.hpp"
+#include "render/shading/surfaces.hpp"
 #include "scene/surface/surface_finder.hpp"
 
 #include <bit>

@@ -2,12 +2,12 @@
 /// The BSDF of any surface, with or without layers, for N lanes, in the local coordinates of
 /// surface.hpp.
 
-#include "render/bsdf/base_bsdf.hpp"
-#include "render/bsdf/base_bsdf_lobes.hpp"
-#include "render/bsdf/base_bsdf_setup.hpp"
+#include "render/bsdf/base/base_bsdf.hpp"
+#include "render/bsdf/base/base_bsdf_lobes.hpp"
+#include "render/bsdf/base/base_bsdf_setup.hpp"
 #include "render/bsdf/coating.hpp"
-#include "render/bsdf/features.hpp"
 #include "render/bsdf/surface.hpp"
+#include "render/lanes/features.hpp"
 
 namespace microtrace::bsdf {
 

@@ -2,9 +2,9 @@
 /// The parameters of a BSDF at one point, as collected by shading code. put_surface.hpp stores them
 /// in lanes, and surface.hpp reads them there.
 
-#include "render/bsdf/features.hpp"
 #include "render/bsdf/schlick.hpp"
 #include "render/bsdf/thin_film.hpp"
+#include "render/lanes/features.hpp"
 
 #include <microtrace/math.hpp>
 

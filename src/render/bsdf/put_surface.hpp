@@ -3,8 +3,8 @@
 /// include this header.
 
 #include "render/bsdf/parameters.hpp"
-#include "render/kernels/lane_access.hpp"
-#include "render/kernels/surface_lanes.hpp"
+#include "render/lanes/lane_access.hpp"
+#include "render/lanes/surface_lanes.hpp"
 
 namespace microtrace::bsdf {
 

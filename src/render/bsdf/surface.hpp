@@ -8,7 +8,7 @@
 #include "render/bsdf/frame.hpp"
 #include "render/bsdf/schlick.hpp"
 #include "render/bsdf/thin_film.hpp"
-#include "render/kernels/surface_lanes.hpp"
+#include "render/lanes/surface_lanes.hpp"
 
 namespace microtrace::bsdf {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "render/guiding/hemisphere_bins.hpp"
-#include "render/kernels/guide_lanes.hpp"
+#include "render/lanes/guide_lanes.hpp"
 
 #include <microtrace/math.hpp>
 

@@ -2,7 +2,7 @@
 /// Pdfs of directions on hemispheres, for N lanes.
 
 #include "render/guiding/hemisphere_lanes.hpp"
-#include "render/kernels/guide_lanes.hpp"
+#include "render/lanes/guide_lanes.hpp"
 #include "simd/vectors.hpp"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 /// The hemisphere about a coordinate axis, for N lanes. It is divided into bins of equal solid
 /// angle: rows of equal height, and columns of equal longitude.
 
-#include "render/kernels/guide_lanes.hpp"
+#include "render/lanes/guide_lanes.hpp"
 #include "simd/revolutions.hpp"
 #include "simd/vector3.hpp"
 

@@ -1,6 +1,6 @@
 #include "accel/intersect_fronts.hpp"
-#include "render/compositing.hpp"
-#include "render/surfaces.hpp"
+#include "render/shading/compositing.hpp"
+#include "render/shading/surfaces.hpp"
 
 #include <microtrace/integrator.hpp>
 

@@ -1,4 +1,4 @@
-#include "render/integrators/wave.hpp"
+#include "render/integrators/wavefront/wave.hpp"
 
 #include <microtrace/path.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Appends lanes of some arrays to others.
 
-#include "render/kernels/kernel.hpp"
+#include "render/lanes/shading_kernels.hpp"
 #include "simd/lane_count.hpp"
 #include "simd/vectors.hpp"
 

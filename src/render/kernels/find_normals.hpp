@@ -1,8 +1,8 @@
 #pragma once
 /// Computes shading normals from normal textures.
 
-#include "render/kernels/kernel.hpp"
-#include "render/shading/normals.hpp"
+#include "render/lanes/shading_kernels.hpp"
+#include "render/shading/points/normals.hpp"
 
 namespace microtrace {
 

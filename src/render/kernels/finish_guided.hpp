@@ -1,8 +1,8 @@
 #pragma once
 /// Finishes the sampling of directions by a mixture of BSDF and guide.
 
-#include "render/kernels/kernel.hpp"
 #include "render/kernels/survival.hpp"
+#include "render/lanes/shading_kernels.hpp"
 
 namespace microtrace {
 

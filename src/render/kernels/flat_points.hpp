@@ -1,8 +1,8 @@
 #pragma once
 /// Computes the intersection points of rays and flat triangles.
 
-#include "render/kernels/find_points.hpp"
-#include "render/kernels/flat_lanes.hpp"
+#include "render/lanes/flat_lanes.hpp"
+#include "render/shading/points/find_points.hpp"
 #include "simd/transpose.hpp"
 
 namespace microtrace {

@@ -2,8 +2,8 @@
 /// Samples environments, for N lanes.
 
 #include "render/guiding/guide_table.hpp"
-#include "render/kernels/environment_lanes.hpp"
-#include "render/kernels/light_lanes.hpp"
+#include "render/lanes/environment_lanes.hpp"
+#include "render/lanes/light_lanes.hpp"
 #include "simd/revolutions.hpp"
 
 namespace microtrace {

@@ -1,7 +1,7 @@
 #pragma once
 /// Samples emissive triangles.
 
-#include "render/kernels/light_lanes.hpp"
+#include "render/lanes/light_lanes.hpp"
 #include "render/lights/light_limits.hpp"
 #include "render/sampling/warps.hpp"
 #include "simd/transpose.hpp"

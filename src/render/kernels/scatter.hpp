@@ -3,10 +3,10 @@
 
 #include "render/bsdf/bsdf.hpp"
 #include "render/bsdf/matte_bsdf.hpp"
-#include "render/kernels/kernel.hpp"
-#include "render/kernels/random_pairs.hpp"
 #include "render/kernels/survival.hpp"
+#include "render/lanes/shading_kernels.hpp"
 #include "render/lights/power_heuristic.hpp"
+#include "render/sampling/random_pairs.hpp"
 
 namespace microtrace {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Survival probabilities of Russian roulette.
 
-#include "render/luminance.hpp"
+#include "scene/math/luminance.hpp"
 #include "simd/vector3.hpp"
 
 namespace microtrace {

@@ -1,12 +1,12 @@
 #include "render/lights/emitters.hpp"
 
 #include "base/memory_account.hpp"
-#include "render/kernels/lane_access.hpp"
+#include "render/lanes/lane_access.hpp"
 #include "render/lights/area_light.hpp"
 #include "render/lights/punctual.hpp"
-#include "render/luminance.hpp"
 #include "render/sampling/warps.hpp"
 #include "scene/material_textures.hpp"
+#include "scene/math/luminance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// The emissive surfaces and punctual lights of a scene.
 
-#include "render/kernels/light_lanes.hpp"
+#include "render/lanes/light_lanes.hpp"
 #include "render/lights/light_sample.hpp"
 #include "render/lights/light_tree.hpp"
 #include "render/shading/shading.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// Limits that keep products of light parameters representable in float32, for N lanes.
 
-#include "render/luminance.hpp"
+#include "scene/math/luminance.hpp"
 #include "simd/vector3.hpp"
 
 namespace microtrace {

@@ -188,7 +188,7 @@ float LightTree::probability(std::size_t light, const Vec3& p, const Vec3& n) co
   const auto all_lanes = [](const Vec3& v) {
     return Floats3<kLevels>{all<kLevels>(v.x), all<kLevels>(v.y), all<kLevels>(v.z)};
   };
-  const Floats3<kLevels> point = all_lanes(space_.point<1>(p)), normal = all_lanes(n);
+  const Floats3<kLevels> point = all_lanes(in_tree_units<1>(space_, p)), normal = all_lanes(n);
   std::uint64_t trail = trails_[light];
   float probability = 1;
   for (std::uint32_t next = nodes_[0].children; next != 0;) {

@@ -4,7 +4,7 @@
 /// root to one light. The probability of each child is proportional to an upper bound of its
 /// contribution.
 
-#include "render/lights/light_node.hpp"
+#include "render/lights/light_importance.hpp"
 
 #include <microtrace/math.hpp>
 

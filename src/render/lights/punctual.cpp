@@ -1,7 +1,7 @@
 #include "render/lights/punctual.hpp"
 
-#include "render/kernels/sample_punctual.hpp"
-#include "render/luminance.hpp"
+#include "render/lights/sample_punctual.hpp"
+#include "scene/math/luminance.hpp"
 #include "scene/math/trigonometry.hpp"
 
 #include <algorithm>

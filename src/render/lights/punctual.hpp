@@ -1,7 +1,7 @@
 #pragma once
 /// Punctual lights (KHR_lights_punctual).
 
-#include "render/kernels/light_lanes.hpp"
+#include "render/lanes/light_lanes.hpp"
 #include "render/lights/light_sample.hpp"
 #include "render/lights/light_tree.hpp"
 

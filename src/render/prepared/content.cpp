@@ -39,7 +39,7 @@ const SurfaceFinder& PreparedScene::Content::surface_finder() const {
 const Surfaces& PreparedScene::Content::surfaces() const {
   const SurfaceFinder& finder = surface_finder();
   return surfaces_.get(
-      [&] { return make<Surfaces>(*scene_, bvh().primitives(), finder, *tables_); });
+      [&] { return make<Surfaces>(*scene_, bvh().primitives(), finder, tables_->textures()); });
 }
 
 const OneSidedTriangles& PreparedScene::Content::one_sided_triangles() const {
@@ -49,7 +49,7 @@ const OneSidedTriangles& PreparedScene::Content::one_sided_triangles() const {
 
 const Shading& PreparedScene::Content::shading() const {
   const Primitives& primitives = bvh().primitives();
-  return shading_.get([&] { return make<Shading>(*scene_, primitives, *tables_); });
+  return shading_.get([&] { return make<Shading>(*scene_, primitives, tables_->textures()); });
 }
 
 const Emitters& PreparedScene::Content::emitters() const {

@@ -3,13 +3,13 @@
 
 #include "base/lazy.hpp"
 #include "base/memory_account.hpp"
-#include "render/guiding/sky_visibility.hpp"
-#include "render/lights/lighting.hpp"
+#include "render/lighting/lighting.hpp"
+#include "render/lighting/sky_visibility.hpp"
 #include "render/prepared/one_sided_triangles.hpp"
 #include "render/prepared/recentered.hpp"
 #include "render/prepared/shared_tables.hpp"
 #include "render/shading/shading.hpp"
-#include "render/surfaces.hpp"
+#include "render/shading/surfaces.hpp"
 #include "scene/surface/surface_finder.hpp"
 
 #include <microtrace/bvh.hpp>

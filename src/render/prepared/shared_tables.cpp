@@ -1,27 +1,14 @@
 #include "render/prepared/shared_tables.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
 namespace microtrace {
 
-SharedTables::SharedTables(const SharedTables& previous, const Scene& scene) {
+SharedTables::SharedTables(const SharedTables& previous, const Scene& scene)
+    : textures_(previous.textures_, scene) {
   const std::scoped_lock lock(previous.mutex_);
   environment_ = previous.environment_;
-  for (const auto& [key, pyramid] : previous.pyramids_) {
-    const Image* const image = key.first;
-    if (std::ranges::any_of(scene.images, [&](const auto& own) { return own.get() == image; }))
-      pyramids_.insert({key, pyramid});
-  }
-}
-
-TextureMap SharedTables::texture_map(const std::shared_ptr<const Image>& image,
-                                     const Sampler& sampler, ColorEncoding encoding) {
-  const std::scoped_lock lock(mutex_);
-  std::shared_ptr<TexturePyramid>& pyramid = pyramids_[{image.get(), encoding}];
-  if (!pyramid) pyramid = std::make_shared<TexturePyramid>(image, encoding);
-  return {pyramid, sampler};  // makes mip maps if the sampler needs them
 }
 
 std::shared_ptr<const BvhTree> SharedTables::tree() const {

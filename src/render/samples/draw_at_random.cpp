@@ -1,11 +1,11 @@
 #include "render/samples/draw_at_random.hpp"
 
 #include "base/memory_account.hpp"
-#include "render/aovs/sampled_aov_painter.hpp"
-#include "render/film_pixel.hpp"
+#include "render/film/film_pixel.hpp"
+#include "render/film/tiles.hpp"
 #include "render/samples/painters.hpp"
 #include "render/samples/passes.hpp"
-#include "render/tiles.hpp"
+#include "render/samples/sampled_aov_painter.hpp"
 
 #include <microtrace/error.hpp>
 

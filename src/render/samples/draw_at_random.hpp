@@ -1,7 +1,7 @@
 #pragma once
 /// Renders pictures by Monte Carlo integrators.
 
-#include "render/tiles.hpp"
+#include "render/film/tiles.hpp"
 
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>

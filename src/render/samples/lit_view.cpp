@@ -1,6 +1,6 @@
 #include "render/samples/lit_view.hpp"
 
-#include "render/guiding/train_guide.hpp"
+#include "render/samples/train_guide.hpp"
 
 #include <microtrace/path.hpp>
 

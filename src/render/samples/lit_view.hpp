@@ -1,10 +1,10 @@
 #pragma once
 /// The scene of Monte Carlo integrators.
 
+#include "render/film/tiles.hpp"
 #include "render/guiding/path_guide.hpp"
-#include "render/lights/lighting.hpp"
-#include "render/tiles.hpp"
-#include "render/view.hpp"
+#include "render/lighting/lighting.hpp"
+#include "render/prepared/view.hpp"
 
 #include <microtrace/render.hpp>
 

@@ -1,8 +1,8 @@
 #include "render/samples/passes.hpp"
 
 #include "base/memory_account.hpp"
-#include "render/tile_errors.hpp"
-#include "render/tiles.hpp"
+#include "render/film/tile_errors.hpp"
+#include "render/film/tiles.hpp"
 
 #include <algorithm>
 #include <array>

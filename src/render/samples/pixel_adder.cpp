@@ -1,7 +1,8 @@
 #include "render/samples/pixel_adder.hpp"
 
 #include "base/system/float_environment.hpp"
-#include "render/samples/add_sample.hpp"
+#include "render/film/add_sample.hpp"
+#include "simd/vector_types.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 #pragma once
 /// Adds batches of samples to the sums of pixels.
 
-#include "render/kernels/kernel.hpp"
-#include "render/ray_batch.hpp"
+#include "render/film/ray_batch.hpp"
+#include "render/lanes/shading_kernels.hpp"
 
 #include <microtrace/integrator.hpp>
 #include <microtrace/math.hpp>

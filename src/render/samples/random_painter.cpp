@@ -1,10 +1,10 @@
 #include "render/samples/random_painter.hpp"
 
-#include "render/kernels/dispatch.hpp"
+#include "render/film/tiles.hpp"
+#include "render/lanes/dispatch.hpp"
 #include "render/samples/pixel_adder.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
-#include "render/tiles.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #pragma once
 /// Adds samples of Monte Carlo integrators to sums.
 
-#include "render/camera_rays.hpp"
-#include "render/kernels/kernel.hpp"
-#include "render/ray_batch.hpp"
-#include "render/samples/pixel_filter.hpp"
+#include "render/film/camera_rays.hpp"
+#include "render/film/pixel_filter.hpp"
+#include "render/film/ray_batch.hpp"
+#include "render/lanes/shading_kernels.hpp"
 #include "render/sampling/time_slice.hpp"
 
 #include <microtrace/integrator.hpp>

@@ -1,7 +1,7 @@
 /// The triangles that rays pass through in places because of their alpha.
 
-#include "render/kernels/find_points.hpp"
-#include "render/shading/hit_lanes.hpp"
+#include "render/shading/points/find_points.hpp"
+#include "render/shading/points/hit_lanes.hpp"
 #include "render/shading/shading.hpp"
 
 #include <algorithm>

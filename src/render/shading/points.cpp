@@ -1,5 +1,5 @@
-#include "render/shading/hit_group.hpp"
-#include "render/shading/hit_lanes.hpp"
+#include "render/shading/points/hit_group.hpp"
+#include "render/shading/points/hit_lanes.hpp"
 #include "render/shading/shading.hpp"
 
 #include <array>

@@ -1,8 +1,8 @@
 #include "render/shading/shading.hpp"
 
 #include "render/bsdf/base_surface.hpp"
-#include "render/luminance.hpp"
 #include "render/shading/texture_slots.hpp"
+#include "scene/math/luminance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -85,9 +85,9 @@ void TexturedMaterial::fetch(const TexelAddress<1>& address) const {
   }
 }
 
-Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables)
+Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTextures& textures)
     : primitives_(primitives),
-      maps_(std::make_unique<TextureMaps>(scene, tables)),
+      maps_(std::make_unique<TextureMaps>(scene, textures)),
       with_open_backs_(primitives.count(), "the one-sided surfaces of the scene"),
       masked_(primitives.count(), "the transparent surfaces of the scene") {
   const auto add = [&](const Material& material) {

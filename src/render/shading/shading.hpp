@@ -3,10 +3,10 @@
 
 #include "accel/kernels/kernel.hpp"
 #include "base/bit_set.hpp"
-#include "render/kernels/kernel.hpp"
-#include "render/shading/flat_triangles.hpp"
-#include "render/shading/footprint.hpp"
+#include "render/lanes/shading_kernels.hpp"
 #include "render/shading/opacity_maps.hpp"
+#include "render/shading/points/flat_triangles.hpp"
+#include "render/shading/points/footprint.hpp"
 #include "render/shading/primitive_set.hpp"
 #include "render/shading/textured_material.hpp"
 #include "simd/vector_types.hpp"
@@ -32,7 +32,7 @@ struct MeshTriangle {
   std::size_t index = 0;
 };
 
-class SharedTables;
+class SharedTextures;
 class TextureMaps;
 
 /// Evaluates materials. Created once per prepared scene, when it is first needed. Any number of
@@ -40,7 +40,7 @@ class TextureMaps;
 class Shading {
  public:
   /// All arguments must outlive this object.
-  Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables);
+  Shading(const Scene& scene, const Primitives& primitives, SharedTextures& textures);
   ~Shading();
 
   /// The shading point of `hit`, which must be a hit of `ray`. Its width is set to 0.

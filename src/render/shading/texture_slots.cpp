@@ -1,6 +1,6 @@
 #include "render/shading/texture_slots.hpp"
 
-#include "render/shading/hit_lanes.hpp"
+#include "render/shading/points/hit_lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ TextureSlot TextureMaps::slot(const TextureUse& use, ColorEncoding encoding) {
   const std::pair key(use.texture, encoding);
   auto known = maps_.find(key);
   if (known == maps_.end()) {
-    TextureMap map = tables_.texture_map(scene_.images[*texture.image], texture.sampler, encoding);
+    TextureMap map = textures_.map(scene_.images[*texture.image], texture.sampler, encoding);
     known = maps_.emplace(key, std::move(map)).first;
   }
   const auto& m = use.texture_from_uv;

@@ -1,8 +1,8 @@
 #pragma once
 /// The textures of materials, ready for lookup.
 
-#include "render/prepared/shared_tables.hpp"
 #include "render/shading/shading.hpp"
+#include "render/textures/shared_textures.hpp"
 #include "render/textures/texture_map.hpp"
 
 #include <microtrace/scene.hpp>
@@ -17,7 +17,7 @@ namespace microtrace {
 class TextureMaps {
  public:
   /// Both must outlive this object.
-  TextureMaps(const Scene& scene, SharedTables& tables) : scene_(scene), tables_(tables) {}
+  TextureMaps(const Scene& scene, SharedTextures& textures) : scene_(scene), textures_(textures) {}
 
   /// Returns a material with its texture slots. The material and this object must outlive the
   /// result.
@@ -27,7 +27,7 @@ class TextureMaps {
   [[nodiscard]] TextureSlot slot(const TextureUse& use, ColorEncoding encoding);
 
   const Scene& scene_;
-  SharedTables& tables_;
+  SharedTextures& textures_;
   std::map<std::pair<std::uint32_t, ColorEncoding>, TextureMap> maps_;
 };
 

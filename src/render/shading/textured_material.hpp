@@ -2,10 +2,10 @@
 /// Materials with their textures, and the points at which they are evaluated.
 
 #include "render/bsdf/parameters.hpp"
+#include "render/lanes/textured_lanes.hpp"
 #include "render/media/medium.hpp"
-#include "render/shading/surface_point.hpp"
+#include "render/shading/points/surface_point.hpp"
 #include "render/textures/texture_map.hpp"
-#include "render/textures/textured_lanes.hpp"
 #include "scene/material_textures.hpp"
 
 #include <microtrace/material.hpp>

@@ -2,9 +2,9 @@
 /// Looks up the textures of surfaces in lanes.
 
 #include "render/bsdf/base_surface.hpp"
-#include "render/kernels/kernel.hpp"
+#include "render/lanes/shading_kernels.hpp"
+#include "render/lanes/textured_lanes.hpp"
 #include "render/textures/read_texel.hpp"
-#include "render/textures/textured_lanes.hpp"
 #include "simd/transpose.hpp"
 
 namespace microtrace {

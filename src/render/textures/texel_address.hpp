@@ -1,7 +1,7 @@
 #pragma once
 /// Finds the texels of points, for N lanes.
 
-#include "render/textures/texels.hpp"
+#include "render/lanes/texels.hpp"
 #include "simd/vectors.hpp"
 
 namespace microtrace {

@@ -1,9 +1,9 @@
 #pragma once
 /// Texture lookups.
 
+#include "render/lanes/texels.hpp"
 #include "render/textures/read_texel.hpp"
 #include "render/textures/texel_address.hpp"
-#include "render/textures/texels.hpp"
 #include "render/textures/texture_pyramid.hpp"
 
 #include <microtrace/math.hpp>

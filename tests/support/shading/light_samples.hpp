@@ -1,9 +1,9 @@
 #pragma once
 /// Samples lights for a single shading point.
 
-#include "render/kernels/dispatch.hpp"
-#include "render/kernels/lane_access.hpp"
-#include "render/lights/lighting.hpp"
+#include "render/lanes/dispatch.hpp"
+#include "render/lanes/lane_access.hpp"
+#include "render/lighting/lighting.hpp"
 
 #include <array>
 #include <optional>
@@ -53,7 +53,8 @@ struct ChosenLight {
 };
 inline std::optional<ChosenLight> chosen_light(const LightTree& tree, const Vec3& p, const Vec3& n,
                                                float u) {
-  const LightChoice<1> choice = choose_light<1>(tree.nodes(), tree.space().point<1>(p), n, u, 1);
+  const LightChoice<1> choice =
+      choose_light<1>(tree.nodes(), in_tree_units<1>(tree.space(), p), n, u, 1);
   if (!(choice.probability > 0)) return std::nullopt;
   return ChosenLight{.light = choice.light[0], .probability = choice.probability};
 }

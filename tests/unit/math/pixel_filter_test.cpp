@@ -1,4 +1,4 @@
-#include "render/samples/pixel_filter.hpp"
+#include "render/film/pixel_filter.hpp"
 
 #include "support/pi.hpp"
 

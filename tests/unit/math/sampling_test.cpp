@@ -1,4 +1,4 @@
-#include "render/samples/sample_pattern.hpp"
+#include "render/film/sample_pattern.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>

@@ -3,9 +3,9 @@
 #include "render/guiding/guide_distribution.hpp"
 #include "render/guiding/guide_table.hpp"
 #include "render/guiding/sky_grid.hpp"
-#include "render/kernels/dispatch.hpp"
-#include "render/kernels/lane_access.hpp"
 #include "render/kernels/sample_environment.hpp"
+#include "render/lanes/dispatch.hpp"
+#include "render/lanes/lane_access.hpp"
 #include "support/lane_tests.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-#include "render/lights/environment_light.hpp"
+#include "render/lights/environment/environment_light.hpp"
 
-#include "render/kernels/dispatch.hpp"
-#include "render/kernels/lane_access.hpp"
-#include "render/lights/studio.hpp"
+#include "render/lanes/dispatch.hpp"
+#include "render/lanes/lane_access.hpp"
+#include "render/lights/environment/studio.hpp"
 #include "render/prepared/shared_tables.hpp"
 #include "render/sampling/sobol.hpp"
 #include "support/pi.hpp"

@@ -1,6 +1,6 @@
-#include "render/kernels/dispatch.hpp"
+#include "render/film/pixel_filter.hpp"
+#include "render/lanes/dispatch.hpp"
 #include "render/samples/pixel_adder.hpp"
-#include "render/samples/pixel_filter.hpp"
 #include "render/sampling/sobol.hpp"
 
 #include <array>

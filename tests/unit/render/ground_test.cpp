@@ -1,5 +1,5 @@
-#include "render/ground/hemisphere_distribution.hpp"
-#include "render/luminance.hpp"
+#include "render/lighting/hemisphere_distribution.hpp"
+#include "scene/math/luminance.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>

@@ -1,6 +1,6 @@
 #include "render/guiding/guide_distribution.hpp"
-#include "render/kernels/dispatch.hpp"
 #include "render/kernels/finish_guided.hpp"
+#include "render/lanes/dispatch.hpp"
 
 #include <array>
 #include <random>

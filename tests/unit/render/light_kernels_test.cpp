@@ -1,9 +1,9 @@
 // Compares the light sampling kernels of every instruction set of this machine bit by bit with the
 // one-lane instance.
-#include "render/kernels/choose_lights.hpp"
-#include "render/kernels/dispatch.hpp"
-#include "render/kernels/lane_access.hpp"
 #include "render/kernels/sample_triangles.hpp"
+#include "render/lanes/dispatch.hpp"
+#include "render/lanes/lane_access.hpp"
+#include "render/lights/choose_lights.hpp"
 #include "render/lights/light_tree.hpp"
 #include "render/lights/punctual.hpp"
 #include "support/lane_tests.hpp"

@@ -3,9 +3,9 @@
 #include "render/shading/opacity_maps.hpp"
 
 #include "exact/first_hit.hpp"
-#include "render/prepared/shared_tables.hpp"
 #include "render/shading/shading.hpp"
 #include "render/shading/texture_slots.hpp"
+#include "render/textures/shared_textures.hpp"
 
 #include <microtrace/primitives.hpp>
 
@@ -134,9 +134,9 @@ TEST(OpacityMaps, KnowOnlyWhatTheLookupFinds) {
   for (int round = 0; round < 1500; ++round) {
     const Scene scene = random_scene(random);
     const Primitives primitives(scene);
-    SharedTables tables;
-    const Shading shading(scene, primitives, tables);
-    TextureMaps textures(scene, tables);
+    SharedTextures shared;
+    const Shading shading(scene, primitives, shared);
+    TextureMaps textures(scene, shared);
     const TexturedMaterial look = textures.slots(scene.materials[0]);
     const Mesh& mesh = std::get<Mesh>(scene.objects[0].shape);
     OpacityMaps maps;
@@ -182,9 +182,9 @@ TEST(OpacityMaps, ReckonWithTheRoundingOfTextureCoordinates) {
   mesh.uv_sets.push_back({{0, 0}, {end, 0}, {0, 1}});
   scene.objects.push_back({.shape = mesh, .material = 0});
   const Primitives primitives(scene);
-  SharedTables tables;
-  const Shading shading(scene, primitives, tables);
-  TextureMaps textures(scene, tables);
+  SharedTextures shared;
+  const Shading shading(scene, primitives, shared);
+  TextureMaps textures(scene, shared);
   OpacityMaps maps;
   const std::size_t map = maps.add(mesh, textures.slots(scene.materials[0]));
   int known = 0;
@@ -216,8 +216,8 @@ TEST(OpacityMaps, KnowMostOfALeaf) {
       Image{.width = kSize, .height = kSize, .channels = 4, .samples = samples}));
   scene.textures.push_back({.image = 0});
   scene.materials.push_back({.base_color_texture = TextureUse{}, .alpha_mode = AlphaMode::mask});
-  SharedTables tables;
-  TextureMaps textures(scene, tables);
+  SharedTextures shared;
+  TextureMaps textures(scene, shared);
   const TexturedMaterial look = textures.slots(scene.materials[0]);
   Mesh quad{.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
             .triangles = {{0, 1, 2}, {0, 2, 3}}};
@@ -248,8 +248,8 @@ TEST(MaskedTriangles, AreTransparentWhereTheirCoverageIsZero) {
   for (int round = 0; round < 800; ++round) {
     const Scene scene = random_scene(random);
     const Primitives primitives(scene);
-    SharedTables tables;
-    const Shading shading(scene, primitives, tables);
+    SharedTextures shared;
+    const Shading shading(scene, primitives, shared);
     for (PrimitiveId id = 0; id < primitives.count(); ++id) {
       for (int i = 0; i < 40; ++i) {
         const Ray ray = random_ray(random, *primitives.triangle(id), random_barycentrics(random));
@@ -279,8 +279,8 @@ TEST(MaskedTriangles, AreThoseOfMeshesThatAreTransparentInPlaces) {
   for (std::uint32_t i = 0; i < 4; ++i) scene.objects.push_back({.shape = mesh, .material = i});
   scene.objects.push_back({.shape = Sphere{.center = {0, 0, 0}, .radius = 1}, .material = 1});
   const Primitives primitives(scene);
-  SharedTables tables;
-  const Shading shading(scene, primitives, tables);
+  SharedTextures shared;
+  const Shading shading(scene, primitives, shared);
   EXPECT_FALSE(shading.is_masked(0));
   EXPECT_TRUE(shading.is_masked(1));
   EXPECT_TRUE(shading.is_masked(2));

@@ -1,4 +1,4 @@
-#include "render/camera_rays.hpp"
+#include "render/film/camera_rays.hpp"
 #include "render/prepared/content.hpp"
 
 #include <microtrace/error.hpp>

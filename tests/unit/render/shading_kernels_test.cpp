@@ -1,12 +1,12 @@
 // Compares the shading kernels of every instruction set of this machine bit by bit with the
 // one-lane instance.
-#include "render/integrators/path_state.hpp"
-#include "render/integrators/vertex_queue.hpp"
-#include "render/kernels/dispatch.hpp"
+#include "render/integrators/wavefront/path_state.hpp"
+#include "render/integrators/wavefront/vertex_queue.hpp"
 #include "render/kernels/find_normals.hpp"
-#include "render/kernels/find_points.hpp"
-#include "render/kernels/lane_access.hpp"
 #include "render/kernels/scatter.hpp"
+#include "render/lanes/dispatch.hpp"
+#include "render/lanes/lane_access.hpp"
+#include "render/shading/points/find_points.hpp"
 #include "support/lane_tests.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "render/shading/surface_point.hpp"
+#include "render/shading/points/surface_point.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/primitives.hpp>

@@ -1,5 +1,5 @@
+#include "render/film/tile_errors.hpp"
 #include "render/sampling/hash.hpp"
-#include "render/tile_errors.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>

@@ -1,8 +1,8 @@
 // Compares the texture kernels of every instruction set of this machine bit by bit with lookups of
 // single texels.
 #include "render/bsdf/base_surface.hpp"
-#include "render/kernels/dispatch.hpp"
-#include "render/kernels/lane_access.hpp"
+#include "render/lanes/dispatch.hpp"
+#include "render/lanes/lane_access.hpp"
 #include "render/textures/texture_map.hpp"
 #include "support/lane_tests.hpp"
 
