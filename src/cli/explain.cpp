@@ -2,8 +2,8 @@
 
 #include "base/memory_account.hpp"
 #include "base/text/printable.hpp"
+#include "cli/camera.hpp"
 #include "cli/options/option_value.hpp"
-#include "cli/pictures/camera.hpp"
 #include "cli/report/explanation_text.hpp"
 #include "cli/report/standard_output.hpp"
 #include "cli/report/warnings.hpp"

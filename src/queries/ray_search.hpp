@@ -2,8 +2,8 @@
 /// Visits all leaves of a tree that a ray may meet, in no particular order, for queries that need
 /// all hits.
 
-#include "accel/instances/tree_walk.hpp"
 #include "accel/layout.hpp"
+#include "accel/walk/tree_walk.hpp"
 #include "queries/tree_target.hpp"
 
 #include <microtrace/ray.hpp>

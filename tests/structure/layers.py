@@ -28,7 +28,8 @@ MAY_INCLUDE = {
     "capi": {"base", "scene"},
     "modules": {"io"},
 }
-# The folders of large parts. Each may include itself and those before it. A file beside them may include all of them.
+# The folders of large parts. Each may include itself and those before it. A file beside them may include all of them. The
+# folders of other parts have no fixed order, but must not include each other in a cycle.
 ORDERED_FOLDERS = {
     "io/gltf": ["document", "bytes", "extensions", "check", "material", "mesh", "animation", "pose", "scene"],
     "render": ["lanes", "sampling", "film", "bsdf", "media", "textures", "shading", "guiding", "lights", "lighting", "prepared",
@@ -89,6 +90,21 @@ def order_complaints(part, folders):
             yield f"{sub.relative_to(ROOT)}: {files} files; split what is over {MOST_FILES}"
 
 
+def cycle_complaints(part):
+    folder = ROOT / "src" / part
+    wanted = {}  # the folders that each folder includes
+    for path in (p for p in folder.rglob("*") if p.suffix in (".hpp", ".cpp")):
+        place = path.relative_to(folder).parts
+        if len(place) > 1:
+            names = [name.removeprefix(part + "/").split("/") for _, name in includes(path) if name.startswith(part + "/")]
+            wanted.setdefault(place[0], set()).update(parts[0] for parts in names if len(parts) > 1 and parts[0] != place[0])
+    while free := [name for name, others in wanted.items() if not others & wanted.keys()]:
+        for name in free:
+            del wanted[name]
+    if wanted:
+        yield f"src/{part}: some of the folders {', '.join(sorted(wanted))} include each other"
+
+
 def complaints():
     files = [p for folder in ("include", "src", "tests", "bench") for p in (ROOT / folder).rglob("*")
              if p.suffix in (".hpp", ".cpp")]
@@ -124,6 +140,7 @@ def umbrella_complaints():
 
 
 ordered = (complaint for part, folders in ORDERED_FOLDERS.items() for complaint in order_complaints(part, folders))
-found = [*complaints(), *ordered, *umbrella_complaints()]
+cycles = (complaint for part in MAY_INCLUDE for complaint in cycle_complaints(part))
+found = [*complaints(), *ordered, *cycles, *umbrella_complaints()]
 print("\n".join(found) or "every include is within its layer")
 sys.exit(1 if found else 0)

@@ -2,8 +2,8 @@
 /// Finds the primitives of a tree near a box.
 
 #include "accel/build/tree.hpp"
-#include "accel/instances/tree_walk.hpp"
 #include "accel/layout.hpp"
+#include "accel/walk/tree_walk.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,10 +3,11 @@
 #include "base/system/processors.hpp"
 #include "base/text/named_items.hpp"
 #include "base/text/printable.hpp"
+#include "cli/camera.hpp"
 #include "cli/dataset/plan.hpp"
 #include "cli/options/values.hpp"
-#include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
+#include "cli/pictures/sequence.hpp"
 #include "cli/report/unusual_counts.hpp"
 
 #include <microtrace/digest.hpp>

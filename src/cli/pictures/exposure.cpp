@@ -1,7 +1,7 @@
 #include "cli/pictures/exposure.hpp"
 
 #include "base/system/processors.hpp"
-#include "cli/pictures/camera.hpp"
+#include "cli/camera.hpp"
 #include "cli/pictures/environment.hpp"
 
 #include <microtrace/defaults.hpp>

@@ -1,6 +1,6 @@
 #include "cli/pictures/render_pictures.hpp"
 
-#include "cli/pictures/camera.hpp"
+#include "cli/camera.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/pictures/output_paths.hpp"

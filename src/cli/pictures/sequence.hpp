@@ -3,6 +3,9 @@
 
 #include "cli/arguments.hpp"
 
+#include <microtrace/camera.hpp>
+#include <microtrace/io.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -37,5 +40,11 @@ class Sequence {
 
   const Arguments& arguments_;
 };
+
+/// Returns a static camera that frames all pictures of a sequence, in world coordinates. Absent if
+/// the sequence uses a camera of the scene or is a single picture. Loads the scene at the time of
+/// every picture.
+[[nodiscard]] std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
+                                                         const Arguments& arguments);
 
 }  // namespace microtrace::cli

@@ -1,6 +1,6 @@
 #include "cli/pictures/shutter.hpp"
 
-#include "cli/pictures/camera.hpp"
+#include "cli/camera.hpp"
 #include "cli/pictures/environment.hpp"
 
 #include <utility>

@@ -1,7 +1,7 @@
 #include "cli/report/warnings.hpp"
 
 #include "base/counted.hpp"
-#include "cli/pictures/camera.hpp"
+#include "cli/camera.hpp"
 #include "cli/report/progress_bar.hpp"
 #include "cli/report/validation_result.hpp"
 #include "scene/material_textures.hpp"

@@ -1,9 +1,9 @@
 #include "cli/view/picture_job.hpp"
 
 #include "base/system/processors.hpp"
+#include "cli/camera.hpp"
 #include "cli/options/applicable.hpp"
 #include "cli/options/parse.hpp"
-#include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/exposure.hpp"
 #include "cli/report/warnings.hpp"

@@ -1,4 +1,4 @@
-#include "cli/pictures/camera.hpp"
+#include "cli/camera.hpp"
 
 #include "base/text/named_items.hpp"
 #include "scene/math/trigonometry.hpp"
@@ -83,24 +83,6 @@ std::optional<std::size_t> camera_index(const Scene& scene, const CameraOptions&
 
 Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize size) {
   return with_lens(camera_without_options(scene, options, size), options);
-}
-
-std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
-                                           const Arguments& arguments) {
-  if (sequence.count() == 1) return std::nullopt;  // choose_camera() frames a single picture
-  const CameraOptions& options = arguments.camera;
-  if (options.is_of_scene() && !options.camera.empty()) return std::nullopt;
-  LoadedScene posed = file.at(sequence.time(0));
-  if (options.is_of_scene() && !posed.scene.cameras.empty()) return std::nullopt;
-  Framing framing(options.view(), arguments.size.value_or(posed.scene.size));
-  framing.add(posed.scene);
-  for (std::uint32_t index = 1; index < sequence.count(); ++index) {
-    posed = file.at(sequence.time(index));
-    framing.add(posed.scene);
-  }
-  PerspectiveCamera camera = camera_of(framing, options);
-  camera.pose.position += framing.origin();
-  return std::get<PerspectiveCamera>(with_lens(camera, options));
 }
 
 PerspectiveCamera in_coordinates_of(const Scene& scene, PerspectiveCamera camera) {

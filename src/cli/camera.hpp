@@ -2,11 +2,9 @@
 /// Selects the camera according to the options.
 
 #include "cli/arguments.hpp"
-#include "cli/pictures/sequence.hpp"
 
 #include <microtrace/camera.hpp>
 #include <microtrace/framing.hpp>
-#include <microtrace/io.hpp>
 #include <microtrace/scene.hpp>
 
 #include <cstddef>
@@ -31,12 +29,6 @@ namespace microtrace::cli {
 /// such camera, throws Error (usage) with the names of the scene's cameras.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const CameraOptions& options,
                                    ImageSize size);
-
-/// Returns a static camera that frames all pictures of a sequence, in world coordinates. Absent if
-/// the sequence uses a camera of the scene or is a single picture. Loads the scene at the time of
-/// every picture.
-[[nodiscard]] std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
-                                                         const Arguments& arguments);
 
 /// Converts a camera from world coordinates to the scene's coordinates (see Scene::origin).
 [[nodiscard]] PerspectiveCamera in_coordinates_of(const Scene& scene, PerspectiveCamera camera);

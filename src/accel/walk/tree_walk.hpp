@@ -3,8 +3,8 @@
 
 #include "accel/build/tree.hpp"
 #include "accel/build/wide/wide_tree.hpp"
-#include "accel/instances/tree_reader.hpp"
 #include "accel/layout.hpp"
+#include "accel/walk/tree_reader.hpp"
 
 #include <array>
 #include <bit>
