@@ -38,6 +38,7 @@ void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLan
   // Two loops, because compilers vectorize only the first one.
   for (int lane = 0; lane < kShadingLanes; ++lane) {
     const float end = from.samples.target[lane] != kNoTarget ? kBehindTarget : 1.0F;
+    // NOLINTNEXTLINE(bugprone-narrowing-conversions): false alarm of clang-tidy 14 about infinity
     t_max_[lane] = from.samples.is_far[lane] != 0 ? kInfinity : end;
   }
   for (int lane = 0; lane < kShadingLanes; ++lane)

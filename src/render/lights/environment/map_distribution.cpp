@@ -27,6 +27,7 @@ void accumulate(std::span<const double> weights, double total, std::uint32_t* bo
   *bounds = 0;
   for (const double weight : weights) {
     sum += weight;
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): positive, and faster than std::lround
     *++bounds = static_cast<std::uint32_t>(std::min(sum / total, 1.0) * kWhole + 0.5);
   }
   *bounds = kWhole;

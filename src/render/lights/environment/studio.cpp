@@ -71,9 +71,10 @@ double radiance(double x, double y, double z) {
 RadianceMap make_studio() {
   RadianceMap map{.width = kWidth, .height = kHeight};
   map.pixels.resize(std::size_t{kWidth} * kHeight);
-  std::array<double, kWidth / 2> cosines{}, sines{};
+  constexpr std::uint32_t kHalf = kWidth / 2;
+  std::array<double, kHalf> cosines{}, sines{};
   for (std::size_t i = 0; i < cosines.size(); ++i) {  // the right half, from -z over +x to +z
-    const double phi = (static_cast<double>(i) + 0.5) / double{kWidth / 2} * std::numbers::pi;
+    const double phi = (static_cast<double>(i) + 0.5) / double{kHalf} * std::numbers::pi;
     cosines[i] = sin_radians(phi);
     sines[i] = -cos_radians(phi);
   }
