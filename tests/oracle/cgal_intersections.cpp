@@ -9,6 +9,7 @@
 #include <CGAL/Mpzf.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>
+#include <CGAL/version.h>
 
 namespace microtrace::oracle {
 namespace {
@@ -22,6 +23,17 @@ using Corners = std::array<typename Kernel::Point_3, 3>;
 template <class Kernel>
 Corners<Kernel> corners(const Triangle& t) {
   return {point<Kernel>(t.a), point<Kernel>(t.b), point<Kernel>(t.c)};
+}
+
+/// Calls a visitor for what an intersection is. CGAL returns variants of Boost, from version 6 on
+/// those of the standard library.
+template <class Visitor, class Part>
+auto visit(const Visitor& visitor, const Part& part) {
+#if CGAL_VERSION_MAJOR >= 6
+  return std::visit(visitor, part);
+#else
+  return boost::apply_visitor(visitor, part);
+#endif
 }
 
 /// The convex hull of three vertices as a CGAL object of its dimension. A collinear Triangle_3
@@ -118,7 +130,7 @@ Rational first_parameter(const Triangle& triangle, const Ray& ray) {
   const LeastParameter least(ray);
   const auto of_set = [&](const auto& set) -> Rational {
     const auto common = CGAL::intersection(set, least.line());
-    return boost::apply_visitor([&](const auto& part) { return least(part); }, *common);
+    return visit([&](const auto& part) { return least(part); }, *common);
   };
   const auto shape = hull<Field>(corners<Field>(triangle));
   const Rational entry =
