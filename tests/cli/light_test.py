@@ -108,15 +108,15 @@ class Environments(ProgramTest):
         self.assert_refused(5, "1,2,x", "--env", "1,2,x")
         (self.folder / "text.hdr").write_text("no picture")
         self.assert_refused(5, "can't be decoded", "--env", "text.hdr")
-        (self.folder / "wide.ppm").write_text("P6\n70000 1\n255\n")
-        self.assert_refused(6, "70000 x 1", "--env", "wide.ppm")
+        (self.folder / "wide.hdr").write_text("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 70000\n")
+        self.assert_refused(6, "70000 x 1", "--env", "wide.hdr")
         (self.folder / "square.ppm").write_bytes(b"P6\n1 1\n255\n\x80\x80\x80")
         self.assert_refused(3, "twice as wide as high", "--env", "square.ppm", "--strict")
         result = self.draw("--env", "square.ppm")
         self.assertEqual(result.returncode, 0)
         self.assertIn(b"warning: square.ppm: ", result.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)),
-                         ["out.ppm", "square.ppm", "text.hdr", "wide.ppm"])
+                         ["out.ppm", "square.ppm", "text.hdr", "wide.hdr"])
 
 
 class Exposure(ProgramTest):

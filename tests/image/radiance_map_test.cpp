@@ -337,9 +337,10 @@ TEST(RadianceMapFile, RefusesUnreadableFiles) {
 
 TEST(RadianceMapFile, RefusesSizesBeforeAllocation) {
   const Folder folder;
-  write_bytes(folder / "large.ppm", "P6\n65536 65536\n255\n");
-  EXPECT_EQ(kind_of(folder / "large.ppm", "65536 x 65536"), ErrorKind::limit);
-  write_bytes(folder / "wide.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 70000\n");
+  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+  write_bytes(folder / "large.hdr", header + "-Y 65536 +X 65536\n");
+  EXPECT_EQ(kind_of(folder / "large.hdr", "65536 x 65536"), ErrorKind::limit);
+  write_bytes(folder / "wide.hdr", header + "-Y 1 +X 70000\n");
   EXPECT_EQ(kind_of(folder / "wide.hdr", "70000 x 1"), ErrorKind::limit);
 }
 

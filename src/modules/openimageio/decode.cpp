@@ -26,12 +26,13 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// Makes an exception from OpenImageIO's error message. OpenImageIO prints messages that nobody
-/// fetched at exit.
+/// Makes an exception from the first of OpenImageIO's messages, which are separated by line breaks.
+/// OpenImageIO prints messages that nobody fetched at exit.
 std::runtime_error complaint(const std::string& otherwise) {
-  const std::string message = OIIO::geterror();
-  if (!message.empty()) return std::runtime_error(message);
-  return std::runtime_error(otherwise.empty() ? "it is damaged" : otherwise);
+  std::string message = OIIO::geterror();
+  if (message.empty()) message = otherwise;
+  message.resize(std::min(message.find('\n'), message.size()));
+  return std::runtime_error(message.empty() ? "it is damaged" : message);
 }
 
 /// Returns the index of the first of the channels red, green and blue, or of the gray channel.
