@@ -28,7 +28,7 @@ Corners<Kernel> corners(const Triangle& t) {
 /// Calls a visitor for what an intersection is. CGAL returns variants of Boost, from version 6 on
 /// those of the standard library.
 template <class Visitor, class Part>
-auto visit(const Visitor& visitor, const Part& part) {
+auto visit_part(const Visitor& visitor, const Part& part) {
 #if CGAL_VERSION_MAJOR >= 6
   return std::visit(visitor, part);
 #else
@@ -130,7 +130,7 @@ Rational first_parameter(const Triangle& triangle, const Ray& ray) {
   const LeastParameter least(ray);
   const auto of_set = [&](const auto& set) -> Rational {
     const auto common = CGAL::intersection(set, least.line());
-    return visit([&](const auto& part) { return least(part); }, *common);
+    return visit_part([&](const auto& part) { return least(part); }, *common);
   };
   const auto shape = hull<Field>(corners<Field>(triangle));
   const Rational entry =

@@ -4,6 +4,7 @@
 usage: layers.py SOURCE_FOLDER
 """
 
+import functools
 import re
 import sys
 from pathlib import Path
@@ -28,12 +29,13 @@ MAY_INCLUDE = {
     "capi": {"base", "scene"},
     "modules": {"io"},
 }
-# The folders of large parts. Each may include itself and those before it. A file beside them may include all of them. The
+# The folders of large parts. Each may include itself and those before it. BESIDE stands for the files beside the folders. The
 # folders of other parts have no fixed order, but must not include each other in a cycle.
+BESIDE = "."
 ORDERED_FOLDERS = {
     "io/gltf": ["document", "bytes", "extensions", "check", "material", "mesh", "animation", "pose", "scene"],
     "render": ["lanes", "sampling", "film", "bsdf", "media", "textures", "shading", "guiding", "lights", "lighting", "prepared",
-               "aovs", "integrators", "samples", "kernels"],
+               "aovs", "integrators", "samples", "kernels", BESIDE],
 }
 MOST_FILES = 20  # in a folder of these parts
 # Public headers that a part must not include.
@@ -64,26 +66,33 @@ LIBRARIES = {
 }
 
 
+@functools.cache
 def includes(path):
-    for number, line in enumerate(path.read_text().splitlines(), 1):
-        match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
-        if match:
-            yield number, match[1]
+    lines = enumerate(path.read_text().splitlines(), 1)
+    matches = ((number, re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)) for number, line in lines)
+    return [(number, match[1]) for number, match in matches if match]
+
+
+def folder_of(parts):
+    return parts[0] if len(parts) > 1 else BESIDE
+
+
+def inner_includes(part, path):
+    """The includes of a file of this part that are of the same part, as line and path within it."""
+    return [(number, name.removeprefix(part + "/").split("/")) for number, name in includes(path) if name.startswith(part + "/")]
 
 
 def order_complaints(part, folders):
     folder = ROOT / "src" / part
     for path in sorted(p for p in folder.rglob("*") if p.suffix in (".hpp", ".cpp")):
-        place = path.relative_to(folder).parts
-        if len(place) == 1:
+        own = folder_of(path.relative_to(folder).parts)
+        if own not in folders:
+            yield f"{path.relative_to(ROOT)}: belongs in one of {', '.join(folders)}"
             continue
-        if place[0] not in folders:
-            yield f"src/{part}/{'/'.join(place)}: belongs in one of {', '.join(folders)}"
-            continue
-        allowed = folders[:folders.index(place[0]) + 1]
-        for number, name in includes(path):
-            if name.startswith(part + "/") and name.removeprefix(part + "/").split("/")[0] not in allowed:
-                yield f"src/{part}/{'/'.join(place)}:{number}: {place[0]} may not include {name}"
+        allowed = folders[:folders.index(own) + 1]
+        for number, parts in inner_includes(part, path):
+            if folder_of(parts) not in allowed:
+                yield f"{path.relative_to(ROOT)}:{number}: {own} may not include {part}/{'/'.join(parts)}"
     for sub in sorted(p for p in folder.rglob("*") if p.is_dir()):
         files = sum(p.is_file() for p in sub.iterdir())
         if files > MOST_FILES:
@@ -94,10 +103,12 @@ def cycle_complaints(part):
     folder = ROOT / "src" / part
     wanted = {}  # the folders that each folder includes
     for path in (p for p in folder.rglob("*") if p.suffix in (".hpp", ".cpp")):
-        place = path.relative_to(folder).parts
-        if len(place) > 1:
-            names = [name.removeprefix(part + "/").split("/") for _, name in includes(path) if name.startswith(part + "/")]
-            wanted.setdefault(place[0], set()).update(parts[0] for parts in names if len(parts) > 1 and parts[0] != place[0])
+        own = folder_of(path.relative_to(folder).parts)
+        wanted.setdefault(own, set()).update(folder_of(parts) for _, parts in inner_includes(part, path))
+    # Files beside the folders may be shared by them, and may use them.
+    wanted.pop(BESIDE, None)
+    for own, others in wanted.items():
+        others.discard(own)
     while free := [name for name, others in wanted.items() if not others & wanted.keys()]:
         for name in free:
             del wanted[name]

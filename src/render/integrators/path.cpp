@@ -1,3 +1,4 @@
+#include "base/idle_objects.hpp"
 #include "render/integrators/wavefront/wave.hpp"
 
 #include <microtrace/path.hpp>
@@ -6,26 +7,20 @@
 #include <memory>
 #include <mutex>
 #include <utility>
-#include <vector>
 
 namespace microtrace {
 
-/// Wavefronts that no thread is using. They are kept because creating one takes as long as a tenth
-/// of its work.
+/// The wavefronts of all threads. Creating one takes as long as a tenth of its work.
 class PathIntegrator::Waves {
  public:
-  std::unique_ptr<Wave> take() {
-    const std::scoped_lock lock(mutex_);
-    if (idle_.empty()) return std::make_unique<Wave>();
-    std::unique_ptr<Wave> wave = std::move(idle_.back());
-    idle_.pop_back();
-    return wave;
-  }
+  std::unique_ptr<Wave> take() { return idle_.take(); }
 
   void give(std::unique_ptr<Wave> wave) {
-    const std::scoped_lock lock(mutex_);
-    counts_ += wave->take_counts();
-    idle_.push_back(std::move(wave));
+    {
+      const std::scoped_lock lock(mutex_);
+      counts_ += wave->take_counts();
+    }
+    idle_.give(std::move(wave));
   }
 
   RayCounts counts() {
@@ -36,7 +31,7 @@ class PathIntegrator::Waves {
  private:
   std::mutex mutex_;
   RayCounts counts_{};
-  std::vector<std::unique_ptr<Wave>> idle_;
+  IdleObjects<Wave> idle_;
 };
 
 RayCounts& RayCounts::operator+=(const RayCounts& other) {

@@ -1,5 +1,6 @@
 #include "render/samples/train_guide.hpp"
 
+#include "base/idle_objects.hpp"
 #include "base/memory_account.hpp"
 #include "base/system/float_environment.hpp"
 #include "render/film/camera_rays.hpp"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -51,7 +51,7 @@ class Trainer {
 
   /// Traces the paths `first` to `last` of each of the tile's cells.
   void trace(const PixelRect& tile, std::uint32_t first, std::uint32_t last) {
-    std::unique_ptr<Worker> worker = take();
+    std::unique_ptr<Worker> worker = workers_.take();
     std::size_t count = 0;
     for (std::uint32_t k = first; k < last; ++k) {
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
@@ -71,22 +71,21 @@ class Trainer {
                        &worker->records);
     for (std::size_t i = 0; i < count; ++i)
       worker->luminances.push_back(luminance(worker->samples[i].color));
-    const std::scoped_lock lock(mutex_);
-    idle_.push_back(std::move(worker));
+    workers_.give(std::move(worker));
   }
 
   /// Moves the records of all threads to `all`, in any order.
   void collect(GuideRecords& all) {
-    for (const auto& worker : idle_) {
-      luminances_.insert(luminances_.end(), worker->luminances.begin(), worker->luminances.end());
-      worker->luminances.clear();
+    workers_.for_each([&](Worker& worker) {
+      luminances_.insert(luminances_.end(), worker.luminances.begin(), worker.luminances.end());
+      worker.luminances.clear();
       for (std::size_t face = 0; face < all.size(); ++face) {
-        std::vector<GuideRecord>& own = worker->records[face];
+        std::vector<GuideRecord>& own = worker.records[face];
         all[face].insert(all[face].end(), own.begin(), own.end());
         memory_.take(own.size() * kCopies * sizeof(GuideRecord), "the training paths");
         own.clear();
       }
-    }
+    });
   }
 
   /// The mean luminance of the samples that were collected.
@@ -104,14 +103,6 @@ class Trainer {
     std::array<Sample, kRandomBatch> samples;
   };
 
-  std::unique_ptr<Worker> take() {
-    const std::scoped_lock lock(mutex_);
-    if (idle_.empty()) return std::make_unique<Worker>();
-    std::unique_ptr<Worker> worker = std::move(idle_.back());
-    idle_.pop_back();
-    return worker;
-  }
-
   static constexpr std::uint64_t kCopies = 3;  // of a thread, of all threads, and for the guide
 
   const World& world_;
@@ -120,8 +111,7 @@ class Trainer {
   MemoryAccount memory_{memory_account().budget()};
   std::vector<float> luminances_;
   DVec2 scale_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Worker>> idle_;
+  IdleObjects<Worker> workers_;
 };
 
 }  // namespace
