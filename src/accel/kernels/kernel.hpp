@@ -93,6 +93,11 @@ struct Beam {
   float center[3], radius[3];
 };
 
+/// A beam around the directions of each group.
+struct alignas(16) GroupBeams {
+  float center[3][kGroups], radius[3][kGroups];
+};
+
 inline constexpr int kHitBatch = kPacketRays;
 
 /// Hits of triangles. Elements without a hit may have any values.
@@ -117,6 +122,7 @@ struct FactorBounds {
   bool common_sign[3];  ///< true if all d_i have the same sign and no 1 / d_i overflows
   float least_near[3], greatest_near[3];  ///< bounds of the factors; valid if common_sign
   float least_far[3], greatest_far[3];
+  bool all_common;  ///< common_sign on all axes
 };
 
 /// The rays of a packet for tests of boxes, see slabs.hpp.
@@ -141,10 +147,10 @@ struct alignas(64) KernelPacket {
   int count;                  ///< number of rays
   const std::uint8_t* order;  ///< the index of the ray at each place, see packet_order.hpp
   PacketBoxRays boxes;
-  float t_begin[kPacketRays];      ///< as in KernelRay
-  float least_t_begin;             ///< the least t_begin of all rays
-  Beam beam, group_beam[kGroups];  ///< beams that contain the directions of all rays and of each
-                                   ///< group
+  float t_begin[kPacketRays];  ///< as in KernelRay
+  float least_t_begin;         ///< the least t_begin of all rays
+  Beam beam;                   ///< contains the directions of all rays
+  GroupBeams group_beams;
   float d_sum;  ///< upper bound of |d_x| + |d_y| + |d_z| for all directions of the beam
 };
 
@@ -248,7 +254,7 @@ struct Kernels {
   void (*closest)(const TreeView& tree, KernelRay ray, const Fallback& slow, ClosestSoFar& best);
   /// Returns true if there is any hit within the ray's interval.
   bool (*any)(const TreeView& tree, KernelRay ray, const Fallback& slow);
-  /// Fills a packet with up to kPacketRays rays and no hits. Each ray consists of eight numbers: o,
+  /// Fills a packet with 2 to kPacketRays rays and no hits. Each ray consists of eight numbers: o,
   /// t_min, d, t_max. The caller has set the packet's order. Returns false if the origins differ,
   /// or if a ray is invalid or exceeds the limits; the packet is then unusable.
   bool (*fill_packet)(const float* rays, int count, KernelPacket& packet);

@@ -29,7 +29,10 @@ class PacketWalk {
     int top = 0;
     stack[top++] = {tree_.root, packet_.least_t_begin, kAllGroups};
     while (top > 0) {
-      const Entry entry = stack[--top];
+      // Loads the members one by one, as they were stored. Wider loads of an entry that was just
+      // pushed would wait for its stores.
+      const Entry& pushed = stack[--top];
+      const Entry entry{pushed.child, pushed.near, pushed.groups};
       if (entry.near > limit_of(entry.groups)) continue;
       if ((entry.child & child_ref::kKind) == 0) {
         top = push_children(scope_.nodes[entry.child], entry.groups, stack, top);
@@ -57,7 +60,6 @@ class PacketWalk {
  private:
   using F = Float<N>;
   static constexpr int kNodeLanes = N < kWidth ? N : kWidth;
-  using B = Float<kNodeLanes>;
 
   /// A part of a tree, and the groups whose rays may enter it. Small parts are entered by few
   /// groups.
@@ -80,24 +82,28 @@ class PacketWalk {
       F limit = load<N>(packet_.best_hi);
       for (int i = N; i < kPacketRays; i += N) limit = greater(limit, load<N>(packet_.best_hi + i));
       const float all = greatest_of<N>(limit);
-      for (float& group : limit_) group = all;
-      return;
+      for (float& group : group_limits_) group = all;
+    } else {
+      for_each_group(groups, [&](int group) {
+        const int first = group * kGroupRays;
+        const float* hits = packet_.best_hi + first;
+        F limit = load<N>(hits);
+        for (int i = N; i < kGroupRays; i += N) limit = greater(limit, load<N>(hits + i));
+        group_limits_[group] = greatest_of<N>(limit);
+      });
     }
-    for_each_group(groups, [&](int group) {
-      const int first = group * kGroupRays;
-      const float* hits = packet_.best_hi + first;
-      F limit = load<N>(hits);
-      for (int i = N; i < kGroupRays; i += N) limit = greater(limit, load<N>(hits + i));
-      limit_[group] = greatest_of<N>(limit);
-    });
+    // For each group, the sets that contain it. A set of groups is the index of its limit.
+    constexpr Lanes kSetsWith[kGroups] = {0xAAAA, 0xCCCC, 0xF0F0, 0xFF00};
+    for (int i = 0; i < kSets; i += N) {
+      F limit = all<N>(-__builtin_inff());
+      for (int group = 0; group < kGroups; ++group)
+        limit = select<N>(kSetsWith[group] >> i & kAllLanes<N>,
+                          greater(all<N>(group_limits_[group]), limit), limit);
+      store<N>(limits_ + i, limit);
+    }
   }
   /// A hit beyond this t can't be the nearest hit of any ray of these groups.
-  [[nodiscard]] float limit_of(Groups groups) const {
-    float limit = limit_[first_lane(groups)];
-    for_each_group(groups & (groups - 1),
-                   [&](int group) { limit = greater(limit, limit_[group]); });
-    return limit;
-  }
+  [[nodiscard]] float limit_of(Groups groups) const { return limits_[groups]; }
 
   /// Bounds of the factors of these groups' rays.
   [[nodiscard]] const FactorBounds& bounds_of(Groups groups) {
@@ -109,45 +115,23 @@ class PacketWalk {
     return bounds.of[group];
   }
 
-  // The planes of a node's children through which the rays enter and leave along an axis, and the
-  // origins for them.
-  struct Slab {
-    const float *enter, *leave;
-    float o_of_enter, o_of_leave;
-  };
-  [[nodiscard]] Slab slab(const WideNode& node, const FactorBounds& bounds, int axis) const {
-    const float* lo = axis == 0 ? node.lo_x : axis == 1 ? node.lo_y : node.lo_z;
-    const float* hi = axis == 0 ? node.hi_x : axis == 1 ? node.hi_y : node.hi_z;
-    const float o_of_lo = boxes().o_of_lo[axis], o_of_hi = boxes().o_of_hi[axis];
-    return bounds.negative[axis] ? Slab{hi, lo, o_of_hi, o_of_lo} : Slab{lo, hi, o_of_lo, o_of_hi};
-  }
-
   int push_children(const WideNode& node, Groups groups, Entry* stack, int top) {
     const FactorBounds& bounds = bounds_of(groups);
-    const float limit = limit_of(groups);
-    alignas(64) float near[kWidth];
-    Lanes entered = 0;
-    for (int i = 0; i < kWidth; i += kNodeLanes) {
-      B enter = all<kNodeLanes>(packet_.least_t_begin), leave = all<kNodeLanes>(limit);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!bounds.common_sign[axis]) continue;
-        const Slab planes = slab(node, bounds, axis);
-        const B in = load<kNodeLanes>(planes.enter + i) - planes.o_of_enter;
-        const B out = load<kNodeLanes>(planes.leave + i) - planes.o_of_leave;
-        enter =
-            greater(lesser(in * bounds.least_near[axis], in * bounds.greatest_near[axis]), enter);
-        leave =
-            lesser(greater(out * bounds.least_far[axis], out * bounds.greatest_far[axis]), leave);
-      }
-      entered |= less_equal<kNodeLanes>(enter, leave) << i;
-      store<kNodeLanes>(near + i, enter);
-    }
+    const BeamTest<kNodeLanes> beam(node, boxes(), bounds, packet_.least_t_begin, limit_of(groups));
     const int first = top;
-    for (; entered != 0; entered &= entered - 1) {
+    for (Lanes entered = beam.entered; entered != 0; entered &= entered - 1) {
       const int lane = first_lane(entered);
-      const Groups entering = entering_groups({boxes(), node, lane}, groups, bounds);
+      const Groups entering =
+          bounds.all_common
+              ? groups_of(groups,
+                          [&](int group) {
+                            return enters_in_order<N>(packet_, boxes(), beam, lane, group);
+                          })
+              : groups_of(groups, [&](int group) {
+                  return enters<N>(packet_, boxes(), node, lane, group);
+                });
       if (entering == 0) continue;
-      const Entry entry{node.child[lane], near[lane], entering};
+      const Entry entry{node.child[lane], beam.near[lane], entering};
       fetch(entry.child);
       int slot = top++;
       for (; slot > first && stack[slot - 1].near < entry.near; --slot)
@@ -157,15 +141,12 @@ class PacketWalk {
     return top;
   }
 
-  // Returns the groups of which a ray enters a box. All are tested, because knowing the others
-  // saves more below, even where boxes are large.
-  [[nodiscard]] Groups entering_groups(const SeenBox& box, Groups groups,
-                                       const FactorBounds& bounds) const {
+  // Returns the groups for which `enters` is true. All are tested, because knowing the others saves
+  // more below, even where boxes are large.
+  template <class Enters>
+  [[nodiscard]] static Groups groups_of(Groups groups, const Enters& enters) {
     Groups entering = 0;
-    for_each_group(groups, [&](int group) {
-      const bool is_entered = box.is_entered<N>(packet_, boxes(), bounds, group);
-      entering |= Groups{is_entered} << group;
-    });
+    for_each_group(groups, [&](int group) { entering |= Groups{enters(group)} << group; });
     return entering;
   }
 
@@ -217,7 +198,9 @@ class PacketWalk {
   Scope scope_;
   PacketBoxRays inner_;  // the rays for boxes, in the scope of an instance
   GroupBounds outer_groups_, inner_groups_;
-  float limit_[kGroups];  // see limit_of()
+  static constexpr int kSets = 1 << kGroups;
+  float group_limits_[kGroups];
+  alignas(64) float limits_[kSets];  // see limit_of()
 };
 
 template <int N>

@@ -19,16 +19,20 @@ inline void for_each_group(Groups groups, const F& f) {
   for (; groups != 0; groups &= groups - 1) f(first_lane(groups));
 }
 
-/// Computes bounds of the slab factors of all rays, which decrease as |d| increases.
-inline void bound_factors(const float (&least)[3], const float (&greatest)[3],
-                          FactorBounds& bounds) {
-  const float d[8] = {least[0], least[1], least[2], 0, greatest[0], greatest[1], greatest[2], 0};
+inline void set_all_common(FactorBounds& bounds) {
+  bounds.all_common = bounds.common_sign[0] && bounds.common_sign[1] && bounds.common_sign[2];
+}
+
+/// Computes bounds of the slab factors of all rays, which decrease as |d| increases. The first
+/// three lanes bound the directions.
+inline void bound_factors(const Float<4>& least, const Float<4>& greatest, FactorBounds& bounds) {
+  const Float<4> d[2] = {least, greatest};
   float near[8], far[8];
-  for (int i = 0; i < 8; i += 4) {
+  for (int i = 0; i < 2; ++i) {
     Float<4> near_factors, far_factors;
-    slab_factors<4>(load<4>(d + i), near_factors, far_factors);
-    store<4>(near + i, near_factors);
-    store<4>(far + i, far_factors);
+    slab_factors<4>(d[i], near_factors, far_factors);
+    store<4>(near + 4 * i, near_factors);
+    store<4>(far + 4 * i, far_factors);
   }
   for (int axis = 0; axis < 3; ++axis) {
     bounds.negative[axis] = greatest[axis] < 0;
@@ -40,6 +44,7 @@ inline void bound_factors(const float (&least)[3], const float (&greatest)[3],
     bounds.least_far[axis] = far[axis + 4];
     bounds.greatest_far[axis] = far[axis];
   }
+  set_all_common(bounds);
 }
 
 /// Computes the same bounds for the rays of one group.
@@ -65,6 +70,7 @@ inline void bound_factors(const PacketBoxRays& rays, int group, FactorBounds& bo
                                bounds.least_far[axis] >= -__FLT_MAX__ &&
                                bounds.greatest_far[axis] <= __FLT_MAX__;
   }
+  set_all_common(bounds);
 }
 
 /// Sets the rays of some groups inside an instance, see InnerRay. Returns false if they exceed the
@@ -74,7 +80,7 @@ inline bool enter(const Instance& instance, const KernelPacket& packet, Groups g
                   PacketBoxRays& boxes) {
   using F = Float<N>;
   const InnerOrigin origin(instance, packet.o);
-  float least_d[3], greatest_d[3];
+  float least_d[4] = {}, greatest_d[4] = {};
   bool suits = true;
   for (int axis = 0; axis < 3; ++axis) {
     const float(&row)[3] = instance.mesh_from_scene[axis];
@@ -99,48 +105,84 @@ inline bool enter(const Instance& instance, const KernelPacket& packet, Groups g
     suits &= __builtin_fabsf(origin.o[axis]) <= kFarthestCoordinate &&
              -kLongestInnerDirection <= least_d[axis] && greatest_d[axis] <= kLongestInnerDirection;
   }
-  bound_factors(least_d, greatest_d, boxes.bounds);
+  bound_factors(load<4>(least_d), load<4>(greatest_d), boxes.bounds);
   return suits;
 }
 
-/// The box of a node's child relative to the origin of a packet's rays.
-struct SeenBox {
-  float lo[3], hi[3];
+/// The children of a node that rays with a common origin may enter within [begin, limit].
+template <int N>
+struct BeamTest {
+  Lanes entered = 0;
+  alignas(64) float near[kWidth];  ///< lower bounds of the parameters at which rays enter
+  /// The planes, relative to the origin, through which the rays enter and leave; only for axes with
+  /// common_sign.
+  float enter[3][kWidth], leave[3][kWidth];
 
-  SeenBox(const PacketBoxRays& rays, const WideNode& node, int lane)
-      : lo{node.lo_x[lane] - rays.o_of_lo[0], node.lo_y[lane] - rays.o_of_lo[1],
-           node.lo_z[lane] - rays.o_of_lo[2]},
-        hi{node.hi_x[lane] - rays.o_of_hi[0], node.hi_y[lane] - rays.o_of_hi[1],
-           node.hi_z[lane] - rays.o_of_hi[2]} {}
-
-  /// True if a ray of a group enters the box. `bounds` are valid for the group.
-  template <int N>
-  [[nodiscard]] bool is_entered(const KernelPacket& packet, const PacketBoxRays& rays,
-                                const FactorBounds& bounds, int group) const {
+  BeamTest(const WideNode& node, const PacketBoxRays& rays, const FactorBounds& bounds, float begin,
+           float limit) {
     using F = Float<N>;
-    const int first = group * kGroupRays;
-    for (int i = first; i < first + kGroupRays; i += N) {
-      F enter = load<N>(packet.t_begin + i), leave = load<N>(packet.best_hi + i);
+    const float* const lo[3] = {node.lo_x, node.lo_y, node.lo_z};
+    const float* const hi[3] = {node.hi_x, node.hi_y, node.hi_z};
+    for (int i = 0; i < kWidth; i += N) {
+      F first = all<N>(begin), last = all<N>(limit);
       for (int axis = 0; axis < 3; ++axis) {
-        const F near_factor = load<N>(rays.near[axis] + i),
-                far_factor = load<N>(rays.far[axis] + i);
-        if (bounds.common_sign[axis]) {
-          const bool negative = bounds.negative[axis];
-          enter = greater(near_factor * (negative ? hi[axis] : lo[axis]), enter);
-          leave = lesser(far_factor * (negative ? lo[axis] : hi[axis]), leave);
-        } else {
-          // The sign of each ray's factor decides which plane the ray meets first.
-          const F zero{};
-          const F l = all<N>(lo[axis]), h = all<N>(hi[axis]);
-          enter = greater(near_factor * (near_factor < zero ? h : l), enter);
-          leave = lesser(far_factor * (far_factor < zero ? l : h), leave);
-        }
+        if (!bounds.common_sign[axis]) continue;
+        const bool negative = bounds.negative[axis];
+        const F to_lo = load<N>(lo[axis] + i) - rays.o_of_lo[axis];
+        const F to_hi = load<N>(hi[axis] + i) - rays.o_of_hi[axis];
+        const F in = negative ? to_hi : to_lo, out = negative ? to_lo : to_hi;
+        first =
+            greater(lesser(in * bounds.least_near[axis], in * bounds.greatest_near[axis]), first);
+        last = lesser(greater(out * bounds.least_far[axis], out * bounds.greatest_far[axis]), last);
+        store<N>(enter[axis] + i, in);
+        store<N>(leave[axis] + i, out);
       }
-      if (less_equal<N>(enter, leave) != 0) return true;
+      entered |= less_equal<N>(first, last) << i;
+      store<N>(near + i, first);
     }
-    return false;
   }
 };
+
+/// True if a ray of a group enters a child. FactorBounds::all_common is set for the group.
+template <int N, int M>
+inline bool enters_in_order(const KernelPacket& packet, const PacketBoxRays& rays,
+                            const BeamTest<M>& beam, int lane, int group) {
+  using F = Float<N>;
+  const int first = group * kGroupRays;
+  for (int i = first; i < first + kGroupRays; i += N) {
+    F enter = load<N>(packet.t_begin + i), leave = load<N>(packet.best_hi + i);
+    for (int axis = 0; axis < 3; ++axis) {
+      enter = greater(load<N>(rays.near[axis] + i) * beam.enter[axis][lane], enter);
+      leave = lesser(load<N>(rays.far[axis] + i) * beam.leave[axis][lane], leave);
+    }
+    if (less_equal<N>(enter, leave) != 0) return true;
+  }
+  return false;
+}
+
+/// Does the same for any rays. The sign of each ray's factor decides which plane the ray meets
+/// first.
+template <int N>
+inline bool enters(const KernelPacket& packet, const PacketBoxRays& rays, const WideNode& node,
+                   int lane, int group) {
+  using F = Float<N>;
+  const float lo[3] = {node.lo_x[lane], node.lo_y[lane], node.lo_z[lane]};
+  const float hi[3] = {node.hi_x[lane], node.hi_y[lane], node.hi_z[lane]};
+  const int first = group * kGroupRays;
+  for (int i = first; i < first + kGroupRays; i += N) {
+    F enter = load<N>(packet.t_begin + i), leave = load<N>(packet.best_hi + i);
+    for (int axis = 0; axis < 3; ++axis) {
+      const F near_factor = load<N>(rays.near[axis] + i), far_factor = load<N>(rays.far[axis] + i);
+      const F zero{};
+      const F to_lo = all<N>(lo[axis] - rays.o_of_lo[axis]);
+      const F to_hi = all<N>(hi[axis] - rays.o_of_hi[axis]);
+      enter = greater(near_factor * (near_factor < zero ? to_hi : to_lo), enter);
+      leave = lesser(far_factor * (far_factor < zero ? to_lo : to_hi), leave);
+    }
+    if (less_equal<N>(enter, leave) != 0) return true;
+  }
+  return false;
+}
 
 }  // namespace
 }  // namespace microtrace

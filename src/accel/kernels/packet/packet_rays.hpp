@@ -15,19 +15,28 @@ namespace microtrace {
 namespace {
 
 /// Returns the numbers among the first four of each ray, o and t_min, whose bits aren't the same
-/// for all rays.
+/// for all of at least two rays.
+template <int N>
 inline Lanes differing_numbers(const float* rays, int count) {
-  const auto first = reinterpreted<Int<4>>(load<4>(rays));
-  Int<4> difference{};
-  for (int i = 0; i < count; ++i)
-    difference |= reinterpreted<Int<4>>(load<4>(rays + 8 * static_cast<std::ptrdiff_t>(i))) ^ first;
-  return true_lanes<4>(difference != 0);
+  constexpr int kNumbers = 8, kRaysAtOnce = N < kNumbers ? 1 : N / kNumbers;
+  float first[N];
+  for (int i = 0; i < N; ++i) first[i] = rays[i % kNumbers];
+  const auto expected = reinterpreted<Int<N>>(load<N>(first));
+  Int<N> difference{};
+  for (int i = 0; i < count; i += kRaysAtOnce) {
+    const int ray = lesser(i, count - kRaysAtOnce);
+    difference |=
+        reinterpreted<Int<N>>(load<N>(rays + kNumbers * static_cast<std::ptrdiff_t>(ray))) ^
+        expected;
+  }
+  const Lanes lanes = true_lanes<N>(difference != 0);
+  return (lanes | lanes >> kNumbers) & 0xFU;
 }
 
 /// Transposes rays to one array per component. Returns false if the rays have different origins.
 template <int N>
 inline bool read_rays(const float* rays, KernelPacket& packet) {
-  const Lanes differing = differing_numbers(rays, packet.count);
+  const Lanes differing = differing_numbers<N>(rays, packet.count);
   if ((differing & 7U) != 0) return false;
   for (int i = 0; i < kPacketRays; i += N) {
     std::uint32_t row[N];  // of d and t_max; a ray has two rows of four numbers
@@ -61,30 +70,38 @@ inline Float<4> least_of_each(Float<N> (&v)[4]) {
   return result;
 }
 
-inline void set_beam(float least, float greatest, int axis, Beam& beam) {
-  const float center = 0.5F * least + 0.5F * greatest;
-  beam.center[axis] = center;
-  beam.radius[axis] = greater(greatest - center, center - least) * (1 + 0x1p-22F) + 0x1p-126F;
+/// Sets the centers and the radii of four intervals of directions.
+inline void set_intervals(const Float<4>& least, const Float<4>& greatest, float* center,
+                          float* radius) {
+  const Float<4> middle = 0.5F * least + 0.5F * greatest;
+  store<4>(center, middle);
+  store<4>(radius, greater(greatest - middle, middle - least) * (1 + 0x1p-22F) + 0x1p-126F);
 }
 
 /// Sets the beams and the bounds of factors, given lanes with the least d and -d of each group.
 template <int N>
 inline void set_beams(Float<N> (&least)[3][kGroups], Float<N> (&least_opposite)[3][kGroups],
                       KernelPacket& packet) {
-  float all_least[3], all_greatest[3];
+  static_assert(kGroups == 4);
+  float all_least[4] = {}, all_greatest[4] = {};
   packet.d_sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Float<4> least_d = least_of_each<N>(least[axis]),
                    greatest_d = -least_of_each<N>(least_opposite[axis]);
-    for (int group = 0; group < kGroups; ++group)
-      set_beam(least_d[group], greatest_d[group], axis, packet.group_beam[group]);
+    set_intervals(least_d, greatest_d, packet.group_beams.center[axis],
+                  packet.group_beams.radius[axis]);
     all_least[axis] = least_of<4>(least_d);
     all_greatest[axis] = greatest_of<4>(greatest_d);
-    set_beam(all_least[axis], all_greatest[axis], axis, packet.beam);
     packet.d_sum += greater(-all_least[axis], all_greatest[axis]);
   }
   packet.d_sum *= 1 + 0x1p-21F;
-  bound_factors(all_least, all_greatest, packet.boxes.bounds);
+  float center[4], radius[4];
+  set_intervals(load<4>(all_least), load<4>(all_greatest), center, radius);
+  for (int axis = 0; axis < 3; ++axis) {
+    packet.beam.center[axis] = center[axis];
+    packet.beam.radius[axis] = radius[axis];
+  }
+  bound_factors(load<4>(all_least), load<4>(all_greatest), packet.boxes.bounds);
 }
 
 template <int N>

@@ -99,7 +99,9 @@ struct PacketView {
     // the bound is more than enough.
     const Vector r{normal.x - p.x - q.x, normal.y - p.y - q.y, normal.z - p.z - q.z};
     for_each_group(groups, [&](int group) {
-      const Beam& beam = packet.group_beam[group];
+      const auto& [center, radius] = packet.group_beams;
+      const Beam beam{.center = {center[0][group], center[1][group], center[2][group]},
+                      .radius = {radius[0][group], radius[1][group], radius[2][group]}};
       const F within = lesser(lesser(greatest(beam, p), greatest(beam, q)), greatest(beam, r));
       seen[group] |= (both | less_equal<N>(-3 * bound, within)) << i;
     });
