@@ -1,5 +1,11 @@
 # Installs everything except for modules, and makes the package for find_package(microtrace).
 include(CMakePackageConfigHelpers)
+
+# Below another project, the folder for documentation is the other project's.
+set(microtrace_doc_dir ${CMAKE_INSTALL_DOCDIR})
+if(NOT PROJECT_IS_TOP_LEVEL)
+  set(microtrace_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/microtrace)
+endif()
 set(microtrace_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/microtrace)
 
 # Installs one of the two libraries by default. `cmake --install --component shared` or `static` installs the other one.
@@ -18,11 +24,21 @@ endforeach()
 install(TARGETS microtrace)
 install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp PATTERN *.h)
 # Uses the folders of the repository, so that links between pages remain valid.
-install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
-install(FILES third_party/meshoptimizer/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}/third_party/meshoptimizer)
-install(FILES python/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
-install(DIRECTORY python/notebooks DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN CMakeLists.txt EXCLUDE PATTERN *.scd EXCLUDE)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${microtrace_doc_dir})
+install(FILES third_party/NOTICES.md DESTINATION ${microtrace_doc_dir}/third_party)
+install(FILES third_party/meshoptimizer/LICENSE DESTINATION ${microtrace_doc_dir}/third_party/meshoptimizer)
+install(FILES python/README.md DESTINATION ${microtrace_doc_dir}/python)
+install(DIRECTORY python/notebooks DESTINATION ${microtrace_doc_dir}/python)
+install(DIRECTORY docs DESTINATION ${microtrace_doc_dir} PATTERN CMakeLists.txt EXCLUDE PATTERN *.scd EXCLUDE)
+
+# Debian requires one file of this name, which systems without other documentation keep.
+set(microtrace_copyright)
+foreach(file LICENSE third_party/NOTICES.md third_party/meshoptimizer/LICENSE)
+  file(READ ${file} text)
+  string(APPEND microtrace_copyright "${text}\n")
+endforeach()
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright CONTENT "${microtrace_copyright}" @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${microtrace_doc_dir})
 
 set(microtrace_modules_dir ${CMAKE_INSTALL_LIBDIR}/microtrace)
 configure_package_config_file(cmake/microtraceConfig.cmake.in

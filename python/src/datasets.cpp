@@ -76,14 +76,18 @@ std::vector<std::string> render(Dataset& self, const fs::path& path, std::uint32
 }
 
 std::vector<std::string> finish(Dataset& self, const fs::path& path) {
-  const nb::gil_scoped_release release;
-  const FloatEnvironment environment;
-  return self.dataset().finish(DatasetFolder(path));
+  std::vector<std::string> names;
+  run_unlocked([&] {
+    const FloatEnvironment environment;
+    names = self.dataset().finish(DatasetFolder(path));
+  });
+  return names;
 }
 
 bool is_whole(const fs::path& path, std::uint32_t view) {
-  const nb::gil_scoped_release release;
-  return DatasetFolder(path).is_whole(view);
+  bool result = false;
+  run_unlocked([&] { result = DatasetFolder(path).is_whole(view); });
+  return result;
 }
 
 }  // namespace
@@ -93,9 +97,14 @@ void bind_datasets(nb::module_& module) {
       .def(nb::init<std::vector<std::string>, fs::path, fs::path, unsigned>(),
            nb::call_guard<nb::gil_scoped_release, FloatEnvironment>())
       .def("order", [](Dataset& self) { return self.dataset().order(); })
+      .def("content",
+           [](Dataset& self) {
+             const DatasetIdentity& identity = self.dataset().identity();
+             return nb::make_tuple(identity.program, identity.digest);
+           })
       .def("create",
            [](Dataset& self, const fs::path& path) {
-             const DatasetFolder created(path, self.dataset().identity());
+             const DatasetFolder created = self.dataset().create(path);
            })
       .def("render", &render)
       .def("finish", &finish)

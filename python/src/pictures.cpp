@@ -375,10 +375,11 @@ void save(const Pixels<const float>& color, double exposure, const std::string& 
 void encode(const Pixels<const float>& color, double exposure, const std::string& tone_map,
             const Pixels<std::uint8_t>& to) {
   const Film film = film_of(color, exposure, tone_map, nb::dict());
-  const nb::gil_scoped_release release;
-  const FloatEnvironment environment;
-  for (std::uint32_t y = 0; y < film.size().height; ++y)
-    io::encode_row(film, y, to.data() + std::size_t{y} * to.shape(1) * to.shape(2));
+  run_unlocked([&] {
+    const FloatEnvironment environment;
+    for (std::uint32_t y = 0; y < film.size().height; ++y)
+      io::encode_row(film, y, to.data() + std::size_t{y} * to.shape(1) * to.shape(2));
+  });
 }
 
 std::string denoiser_name() {

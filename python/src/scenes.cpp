@@ -95,8 +95,9 @@ void bind_scenes(nb::module_& module) {
       .def_prop_ro("is_flat", [](const Prepared& self) { return self.is_flat; })
       .def_prop_ro("has_bounded_object",
                    [](const Prepared& self) {
-                     const nb::gil_scoped_release release;
-                     return has_bounded_object(self.scene.scene());
+                     bool result = false;
+                     run_unlocked([&] { result = has_bounded_object(self.scene.scene()); });
+                     return result;
                    })
       .def_prop_ro("has_lights",
                    [](const Prepared& self) { return !self.scene.scene().lights.empty(); })

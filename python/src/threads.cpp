@@ -13,6 +13,7 @@
 #include <new>
 #include <pthread.h>
 #include <string>
+#include <thread>
 
 namespace microtrace::python {
 namespace {
@@ -23,29 +24,41 @@ constexpr std::chrono::milliseconds kPatience{50};
 /// The number of items that a thread takes at a time.
 constexpr std::size_t kBlock = 4096;
 
-/// The calls of run_interruptible() that are running. The interpreter must not exit before they
-/// end, because it ends the threads that need its lock.
+/// The calls that run without the interpreter's lock. The interpreter must not exit before they
+/// end, because it ends the threads that need its lock, even within destructors.
 class Calls {
  public:
-  void add(int change) {
+  /// Returns false if the interpreter exits. The thread that makes it exit may still run calls.
+  [[nodiscard]] bool begin() {
     const std::scoped_lock lock(mutex_);
-    count_ += change;
+    if (is_canceled()) return false;
+    ++count_;
+    return true;
+  }
+  void end() {
+    const std::scoped_lock lock(mutex_);
+    --count_;
     changed_.notify_all();
   }
 
-  /// Cancels all calls, also future ones. Waits until none is running, but only for some seconds.
+  /// Cancels the calls of other threads, also future ones. Waits until none is running, but only
+  /// for some seconds.
   void cancel() {
-    is_canceled_ = true;
     std::unique_lock lock(mutex_);
+    exiting_ = std::this_thread::get_id();
+    is_exiting_ = true;
     changed_.wait_for(lock, std::chrono::seconds(5), [&] { return count_ == 0; });
   }
-  [[nodiscard]] bool is_canceled() const { return is_canceled_; }
+  [[nodiscard]] bool is_canceled() const {
+    return is_exiting_ && std::this_thread::get_id() != exiting_;
+  }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
   int count_ = 0;
-  std::atomic<bool> is_canceled_ = false;
+  std::thread::id exiting_;  // set before is_exiting_
+  std::atomic<bool> is_exiting_ = false;
 };
 
 Calls calls;
@@ -56,11 +69,19 @@ void forget_calls() {
   new (&calls) Calls;
 }
 
-/// A running call.
+/// Ends a daemon thread without a message while the interpreter exits.
+[[noreturn]] void end_thread() {
+  PyErr_SetNone(PyExc_SystemExit);
+  throw nb::python_error();
+}
+
+/// A running call. Exists until its thread has the interpreter's lock again.
 class Call {
  public:
-  Call() { calls.add(1); }
-  ~Call() { calls.add(-1); }
+  Call() {
+    if (!calls.begin()) end_thread();
+  }
+  ~Call() { calls.end(); }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 };
@@ -86,6 +107,7 @@ void bind_threads(nb::module_& module) {
 }
 
 void run_unlocked(const std::function<void()>& f) {
+  const Call call;
   const nb::gil_scoped_release release;
   if (free_stack() >= kStackSize) return f();
   std::exception_ptr failure;
@@ -101,7 +123,7 @@ void run_unlocked(const std::function<void()>& f) {
 }
 
 void run_interruptible(const std::function<void(const std::function<bool()>&)>& f) {
-  const Call call;  // until this thread has the interpreter's lock again
+  const Call call;
   std::atomic<bool> is_canceled = false;
   const std::function<bool()> cancel = [&] { return is_canceled.load(); };
   std::mutex mutex;
@@ -118,8 +140,7 @@ void run_interruptible(const std::function<void(const std::function<bool()>&)>& 
     is_done = true;
     ended.notify_one();
   };
-  const bool is_late = calls.is_canceled();
-  bool is_interrupted = false;
+  bool is_interrupted = false, is_exiting = false;
   {
     const nb::gil_scoped_release release;
     const auto threads = start_threads(1, work);
@@ -131,7 +152,7 @@ void run_interruptible(const std::function<void(const std::function<bool()>&)>& 
     while (!ended.wait_for(lock, kPatience, [&] { return is_done; })) {
       lock.unlock();
       if (calls.is_canceled()) {
-        is_canceled = true;
+        is_canceled = is_exiting = true;
       } else if (!is_interrupted) {
         const nb::gil_scoped_acquire acquire;
         is_interrupted = PyErr_CheckSignals() != 0;
@@ -141,11 +162,7 @@ void run_interruptible(const std::function<void(const std::function<bool()>&)>& 
     }
   }
   if (is_interrupted) throw nb::python_error();
-  if (failure && calls.is_canceled() && !is_late) {
-    // A daemon thread at the exit, which this exception ends without a message.
-    PyErr_SetNone(PyExc_SystemExit);
-    throw nb::python_error();
-  }
+  if (is_exiting) end_thread();
   if (failure) std::rethrow_exception(failure);
 }
 

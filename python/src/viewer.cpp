@@ -85,8 +85,7 @@ void open_viewer(Viewer* self, const Prepared& prepared, std::string name,
                  const std::string& allowed_host) {
   const cli::Arguments arguments =
       arguments_of(prepared, std::move(name), std::move(words), port, allowed_host);
-  const nb::gil_scoped_release release;
-  new (self) Viewer(prepared, arguments);
+  run_unlocked([&] { new (self) Viewer(prepared, arguments); });
 }
 
 }  // namespace

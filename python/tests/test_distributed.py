@@ -221,6 +221,43 @@ def test_views_of_a_task_that_fails_are_not_counted_as_kept(tmp_path, monkeypatc
             assert md.dataset(client, scene, folder, **arguments) == md.Summary(6, 0, 6)
 
 
+def test_workers_without_modules_are_refused(tmp_path, monkeypatch):
+    with Cluster(tmp_path) as cluster:
+        with monkeypatch.context() as own:
+            own.setenv("MICROTRACE_MODULE_PATH", str(tmp_path))
+            cluster.worker("poor")
+        with cluster.client() as client:
+            client.wait_for_workers(1, timeout=60)
+            arguments = {"views": "orbit:4", "formats": ["npz"], "options": ["--size=16x12"]}
+            scene = SCENES / "gltf" / "textured.glb"
+            with pytest.raises(ValueError, match="tcp://.* decodes the scene's files differently"):
+                md.dataset(client, scene, tmp_path / "set", **arguments)
+
+
+def test_folders_with_deep_files_are_not_empty():
+    files = chaos.fsspec.filesystem("memory")
+    store = md.datasets.Store("memory://deep", {})
+    assert store.is_empty()
+    files.pipe_file("/deep/a/b/c/letter.txt", b"mine")
+    try:
+        assert not store.is_empty()
+        assert not store.create("a/b/c/letter.txt", b"new")
+        assert store.read("a/b/c/letter.txt") == b"mine"
+        assert store.create("dataset.json", b"new") and store.read("dataset.json") == b"new"
+    finally:
+        files.rm("/deep", recursive=True)
+
+
+def test_runs_that_replace_each_others_data_set_fail(tmp_path):
+    files = chaos.fsspec.filesystem("memory")
+    files.pipe_file("/shared/dataset.json", b"another")
+    try:
+        with pytest.raises(OSError, match="memory://shared: another run has replaced"):
+            md.datasets._finish(None, md.datasets.Store("memory://shared", {}), b"own")
+    finally:
+        files.rm("/shared", recursive=True)
+
+
 def test_records_of_other_files_and_views_are_ignored(tmp_path):
     (tmp_path / "records").mkdir()
     for name in ("000001", "0000002", "000004", "000005", "1000000", "view", "00003"):

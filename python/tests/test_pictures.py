@@ -467,6 +467,59 @@ assert time.monotonic() - start < 30  # each of them would wait 5 s for the thre
 """)
 
 
+def run_program(program: str) -> None:
+    """Runs a program that must end without an error or a message."""
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (result.returncode, result.stderr) == (0, ""), result.stderr
+
+
+def test_handlers_at_exit_get_whole_results():
+    # The handler runs after the library's own, which was registered later.
+    run_program(f"""
+import atexit
+@atexit.register
+def check():
+    assert (prepared.occluded(rays) == expected).all()
+    hits = prepared.intersect(rays)
+    assert (hits.hit == expected).all()
+    assert mt.render(prepared, size=(320, 240), spp=4).color.mean() > 0
+import microtrace as mt
+import numpy as np
+prepared = mt.load({str(KNOT)!r}).prepare()
+rays = np.random.default_rng(0).normal(size=(500_000, 6)).astype(np.float32)
+expected = prepared.occluded(rays)
+filled = np.full(500_000, 255, np.uint8)  # memory that results might reuse
+del filled
+""")
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "prepared.intersect(rays[:1000])",
+        "assert (prepared.occluded(rays) == expected).all()",
+        "mt.render(prepared, size=(16, 12), spp=1, aovs=['depth'])",
+        "mt.load(path)",
+    ],
+)
+def test_daemon_threads_end_silently(call):
+    run_program(f"""
+import threading, time
+import microtrace as mt
+import numpy as np
+path = {str(KNOT)!r}
+prepared = mt.load(path).prepare()
+rays = np.random.default_rng(0).normal(size=(300_000, 6)).astype(np.float32)
+expected = prepared.occluded(rays)
+def work():
+    while True:
+        {call}
+for _ in range(2):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.3)
+""")
+
+
 def looks_alike(a: mt.Picture, b: mt.Picture) -> bool:
     """Returns True if all but a few pixels at outlines show the same primitive at the same
     depth."""

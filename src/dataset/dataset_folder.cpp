@@ -1,6 +1,7 @@
 #include "base/system/error_text.hpp"
 #include "base/text/printable.hpp"
 #include "dataset/dataset_json.hpp"
+#include "dataset/links.hpp"
 #include "dataset/manifest_reader.hpp"
 #include "dataset/measure.hpp"
 #include "io/atomic_file.hpp"
@@ -119,17 +120,6 @@ bool is_unused(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     return name.starts_with(".microtrace-") || name == "records" || name == "dataset.json";
   });
-}
-
-/// Throws Error (usage) if the folder contains links to files, through which the data set would
-/// overwrite other files.
-void refuse_links(const fs::path& folder) {
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, error), end; at != end; at.increment(error)) {
-    if (!at->is_symlink(error) || at->is_directory(error)) continue;
-    throw Error(ErrorKind::usage, at->path().string(),
-                "is a link to a file that the data set would overwrite; remove the link");
-  }
 }
 
 }  // namespace

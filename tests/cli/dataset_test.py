@@ -347,6 +347,13 @@ class Dataset(ProgramTest):
         self.assertIn("is a link", self.dataset(*options, code=2))
         link.unlink()
         self.dataset(*options)
+        (self.folder / "linked").mkdir()
+        (self.folder / "linked/letter.png").symlink_to(SCENE)
+        (self.folder / "linked/again").symlink_to(self.folder / "out")
+        subfolder = self.folder / "out/subfolder"
+        subfolder.symlink_to(self.folder / "linked")
+        self.assertIn("letter.png: is a link", self.dataset(*options, code=2))
+        subfolder.unlink()
         copy = self.folder / SCENE.name
         copy.write_text(SCENE.read_text() + "\n")
         self.assertIn("another content", self.dataset(*options, scene=copy, code=2))
@@ -354,6 +361,14 @@ class Dataset(ProgramTest):
         (self.folder / "mine").mkdir()
         (self.folder / "mine/letter.txt").write_text("mine")
         self.assertIn("not a data set", self.dataset(*options, output="mine", code=2))
+
+    def test_names_that_differ_in_case_need_a_folder_that_tells_them_apart(self):
+        views = [{"name": name, "camera": {"azimuth": 90 * i, "elevation": 0}} for i, name in enumerate(("Front", "front", "back"))]
+        (self.folder / "views.json").write_text(json.dumps({"views": views}))
+        options = ["--views", self.folder / "views.json", "--name", "{name}", *SMALL]
+        self.dataset(*options)
+        (self.folder / "out/DATASET.JSON").hardlink_to(self.folder / "out/dataset.json")  # as if case were ignored
+        self.assertIn("ignores the case of letters, so views share the file name front", self.dataset(*options, code=2))
 
     def test_options_that_leave_the_files_alone_may_differ(self):
         self.dataset("--views", "orbit:2", *SMALL)

@@ -30,10 +30,19 @@ class Store:
 
     @contextmanager
     def _failures(self) -> Iterator[None]:
-        """Makes OSErrors of the errors of storage clients, which have their own types."""
+        """Makes OSErrors of the errors of storage clients, which have their own types, and lets all
+        name the folder."""
         try:
             yield
-        except (OSError, ImportError, ValueError):
+        except OSError as error:
+            if self.url in str(error):
+                raise
+            message = f"{self.url}: {error}"
+            if error.errno is not None:
+                raise OSError(error.errno, message) from error
+            kind = type(error) if type(error).__module__ == "builtins" else OSError
+            raise kind(message) from error
+        except (ImportError, ValueError):
             raise
         except Exception as error:
             raise OSError(f"{self.url}: {type(error).__name__}: {error}") from error
@@ -53,7 +62,8 @@ class Store:
         """Returns True if the folder has no files or doesn't exist."""
         with self._failures():
             self._files.invalidate_cache()
-            return not self._files.find(self._root, maxdepth=2)
+            # Some stores have a file without a name for a folder.
+            return not any(any(files) for _, _, files in self._files.walk(self._root))
 
     def names(self, subfolder: str) -> set[str]:
         """Returns the names of the files in a subfolder."""
@@ -61,6 +71,23 @@ class Store:
             self._files.invalidate_cache()
             start = len(self._path(""))
             return {path[start:] for path in self._files.find(self._path(subfolder))}
+
+    def create(self, name: str, data: bytes) -> bool:
+        """Stores a file unless it exists; returns False if it does. Stores that can't refuse to
+        replace a file replace it."""
+        path = self._path(name)
+        with self._failures():
+            try:
+                self._files.pipe_file(path, data, mode="create")
+            except (NotImplementedError, TypeError):
+                self._files.pipe_file(path, data)
+            except OSError:
+                # Clients of stores report existing files by several kinds of errors.
+                self._files.invalidate_cache()
+                if not self._files.exists(path):
+                    raise
+                return False
+        return True
 
     def upload(self, folder: Path, names: Sequence[str]) -> None:
         """Stores files of a folder of this machine under the same names, several at a time."""

@@ -61,6 +61,7 @@ class _Content:
     order: npt.NDArray[np.uint32]  #: of the views
     files: dict[str, bytes]  #: by absolute path, all files that are read
     description: bytes  #: of the data set: dataset.json
+    identity: tuple[str, int]  #: the program with its denoiser, and a digest of what was read
     store: Store
     is_new: bool  #: True if no view was finished at the beginning
 
@@ -96,6 +97,7 @@ class _Views:
             with client_names(self.copies):
                 threads = get_worker().state.nthreads
                 self._core = _core.Dataset(words, content.folder, self.copies, threads)
+            _require_same(self._core.content(), content.identity)
         except BaseException:
             shutil.rmtree(self.folder, ignore_errors=True)
             raise
@@ -122,6 +124,21 @@ class _Views:
     def take_warnings(self) -> list[Diagnostic]:
         """Returns new warnings, with the names of the client's files."""
         return [renamed(warning, self.copies) for warning in self._core.take_warnings()]
+
+
+def _require_same(own: tuple[str, int], client: tuple[str, int]) -> None:
+    """Raises ValueError if this worker's pictures would differ from those of the client."""
+    if own == client:
+        return
+    address = get_worker().address
+    if own[0] != client[0]:
+        message = f"the worker {address} has {own[0]}, the client {client[0]}; install the same"
+    else:
+        message = (
+            f"the worker {address} decodes the scene's files differently from the client: one of "
+            "them lacks a module of microtrace; install the same modules on both"
+        )
+    raise error_of(2, Diagnostic("", 0, 0, "", message, message))
 
 
 def _moved(words: Sequence[str], folder: str, root: Path) -> list[str]:
@@ -198,7 +215,7 @@ def dataset(
 
     Raises:
         ValueError: an argument or the scene is invalid, the folder contains something else, or a
-            worker has another version of microtrace.
+            worker has another version, other modules or another denoiser than the client.
         TypeError: the client is asynchronous, or an argument has the wrong type.
         CanceledError: progress returned False. Finished views remain.
         distributed.KilledWorker: workers died repeatedly while they rendered the same views.
@@ -238,7 +255,7 @@ def dataset(
     description, is_new = _create(core, store)
     files = {os.path.abspath(name): Path(name).read_bytes() for name in names}
     order = np.array(core.order(), np.uint32)
-    content = _Content(words, os.getcwd(), order, files, description, store, is_new)
+    content = _Content(words, os.getcwd(), order, files, description, core.content(), store, is_new)
     count = len(order)
     # The views that a task finished before it failed are in no result.
     kept = recorded_views(store, count)
@@ -282,8 +299,8 @@ def _create(core: _core.Dataset, store: Store) -> tuple[bytes, bool]:
         with client_names(folder, store.url):
             core.create(folder)
         description = (folder / "dataset.json").read_bytes()
-        if known is None:
-            store.upload(folder, ["dataset.json"])
+        if known is None and not store.create("dataset.json", description):
+            return _create(core, store)  # another run has just created a data set
         return description, known is None
 
 
@@ -292,9 +309,18 @@ def _finish(core: _core.Dataset, store: Store, description: bytes) -> None:
     if store.local is not None:
         core.finish(store.local)
         return
+    # Not all stores can refuse to replace a file.
+    if store.read("dataset.json") != description:
+        message = (
+            f"{store.url}: another run has replaced dataset.json, and both have written views; "
+            "remove the folder and run one of them again"
+        )
+        raise error_of(5, Diagnostic(store.url, 0, 0, "", message, message))
     with tempfile.TemporaryDirectory(prefix="microtrace-") as name:
         folder = Path(name)
         (folder / "dataset.json").write_bytes(description)
         store.download("records", folder)
         store.download("annotations", folder)
-        store.upload(folder, core.finish(folder))
+        with client_names(folder, store.url):
+            names = core.finish(folder)
+        store.upload(folder, names)

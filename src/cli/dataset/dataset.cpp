@@ -55,6 +55,25 @@ void check_names(const Arguments& arguments, const std::vector<DatasetView>& vie
   }
 }
 
+/// Throws Error (usage) if two views would have the same files in a folder that ignores the case of
+/// letters.
+void check_case(const fs::path& folder, const Arguments& arguments,
+                const std::vector<DatasetView>& views) {
+  std::error_code error;
+  if (!fs::exists(folder / "DATASET.JSON", error)) return;
+  std::set<std::string> names;
+  for (std::uint32_t i = 0; i < views.size(); ++i) {
+    std::string name = stem_of(arguments, views[i], i);
+    for (char& c : name) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (!names.insert(name).second) {
+      refuse_usage("--name: " + folder.string() +
+                   " ignores the case of letters, so views share the "
+                   "file name " +
+                   name + "; add {view:06d} or give the views different names");
+    }
+  }
+}
+
 DatasetIdentity identity_of(const Arguments& arguments, const std::vector<DatasetView>& views,
                             std::uint64_t digest, const std::string& denoiser) {
   std::error_code ignored;  // the folder may have been removed
@@ -112,6 +131,12 @@ std::vector<std::uint32_t> Dataset::order() const {
   return rendering_order(views_, arguments_.dataset.shard);
 }
 
+DatasetFolder Dataset::create(const fs::path& path) const {
+  DatasetFolder folder(path, identity_);
+  check_case(path, arguments_, views_);
+  return folder;
+}
+
 void Dataset::read_all() {
   for_each_look(views_, [&](std::uint32_t i) { renderer_->load(views_[i]); });
 }
@@ -157,7 +182,7 @@ void write_dataset(const Arguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
   Dataset dataset(arguments);
   const std::vector<std::uint32_t> order = dataset.order();
-  DatasetFolder folder(arguments.output, dataset.identity());
+  DatasetFolder folder = dataset.create(arguments.output);
   const auto progress = progress_of(arguments, static_cast<std::uint32_t>(order.size()));
   std::size_t rendered = 0, kept = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -170,6 +195,11 @@ void write_dataset(const Arguments& arguments) {
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(order.size()));
   }
   const std::uint32_t missing = folder.missing();
+  if (missing != 0 && !arguments.dataset.shard) {
+    throw Error(ErrorKind::io, (folder.path() / "records").string(),
+                "lacks the records of " + counted(missing, "view") +
+                    " that were rendered; run the same command again");
+  }
   // The files of a finished data set may be another user's, and read-only.
   if (missing == 0 && (rendered != 0 || !folder.is_finished())) {
     // A power failure can damage the files of shards that have ended.

@@ -33,6 +33,8 @@ class Dataset {
   /// See rendering_order().
   [[nodiscard]] std::vector<std::uint32_t> order() const;
 
+  /// Creates the folder or checks that it has this data set. Throws Error.
+  [[nodiscard]] DatasetFolder create(const std::filesystem::path& path) const;
   /// Reads the files of all views. Throws Error.
   void read_all();
   /// Renders a view into the folder and writes its record. Returns the names of the view's files.

@@ -27,22 +27,22 @@ inline void set_all_common(FactorBounds& bounds) {
 /// three lanes bound the directions.
 inline void bound_factors(const Float<4>& least, const Float<4>& greatest, FactorBounds& bounds) {
   const Float<4> d[2] = {least, greatest};
-  float near[8], far[8];
+  float near[2][4], far[2][4];
   for (int i = 0; i < 2; ++i) {
     Float<4> near_factors, far_factors;
     slab_factors<4>(d[i], near_factors, far_factors);
-    store<4>(near + 4 * i, near_factors);
-    store<4>(far + 4 * i, far_factors);
+    store<4>(near[i], near_factors);
+    store<4>(far[i], far_factors);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    bounds.negative[axis] = greatest[axis] < 0;
-    bounds.common_sign[axis] = (greatest[axis] < 0 || least[axis] >= 0) &&
-                               __builtin_fabsf(far[axis]) <= __FLT_MAX__ &&
-                               __builtin_fabsf(far[axis + 4]) <= __FLT_MAX__;
-    bounds.least_near[axis] = near[axis + 4];
-    bounds.greatest_near[axis] = near[axis];
-    bounds.least_far[axis] = far[axis + 4];
-    bounds.greatest_far[axis] = far[axis];
+    bounds.negative[axis] = d[1][axis] < 0;
+    bounds.common_sign[axis] = (d[1][axis] < 0 || d[0][axis] >= 0) &&
+                               __builtin_fabsf(far[0][axis]) <= __FLT_MAX__ &&
+                               __builtin_fabsf(far[1][axis]) <= __FLT_MAX__;
+    bounds.least_near[axis] = near[1][axis];
+    bounds.greatest_near[axis] = near[0][axis];
+    bounds.least_far[axis] = far[1][axis];
+    bounds.greatest_far[axis] = far[0][axis];
   }
   set_all_common(bounds);
 }
