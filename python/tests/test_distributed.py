@@ -249,11 +249,18 @@ def test_folders_with_deep_files_are_not_empty():
 
 
 def test_runs_that_replace_each_others_data_set_fail(tmp_path):
+    words = [str(SCENES / "perspective1.json"), "--output=.", "--views=orbit:2"]
+    own, other = (
+        md.datasets._core.read_dataset([*words, f"--size={size}"])[0] for size in ("8x6", "6x8")
+    )
+    other.create(tmp_path)
     files = chaos.fsspec.filesystem("memory")
-    files.pipe_file("/shared/dataset.json", b"another")
+    files.pipe_file("/shared/dataset.json", (tmp_path / "dataset.json").read_bytes())
     try:
-        with pytest.raises(OSError, match="memory://shared: another run has replaced"):
-            md.datasets._finish(None, md.datasets.Store("memory://shared", {}), b"own")
+        with pytest.raises(
+            ValueError, match="memory://shared: contains a data set of other options"
+        ):
+            md.datasets._finish(own, md.datasets.Store("memory://shared", {}), b"own")
     finally:
         files.rm("/shared", recursive=True)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -76,15 +77,17 @@ class Store:
         """Stores a file unless it exists; returns False if it does. Stores that can't refuse to
         replace a file replace it."""
         path = self._path(name)
+        parameters = inspect.signature(self._files.pipe_file).parameters
+        mode = {"mode": "create"} if "mode" in parameters else {}
         with self._failures():
             try:
-                self._files.pipe_file(path, data, mode="create")
-            except (NotImplementedError, TypeError):
+                self._files.pipe_file(path, data, **mode)
+            except NotImplementedError:
                 self._files.pipe_file(path, data)
             except OSError:
                 # Clients of stores report existing files by several kinds of errors.
                 self._files.invalidate_cache()
-                if not self._files.exists(path):
+                if not mode or not self._files.exists(path):
                     raise
                 return False
         return True

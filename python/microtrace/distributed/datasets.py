@@ -309,16 +309,12 @@ def _finish(core: _core.Dataset, store: Store, description: bytes) -> None:
     if store.local is not None:
         core.finish(store.local)
         return
-    # Not all stores can refuse to replace a file.
-    if store.read("dataset.json") != description:
-        message = (
-            f"{store.url}: another run has replaced dataset.json, and both have written views; "
-            "remove the folder and run one of them again"
-        )
-        raise error_of(5, Diagnostic(store.url, 0, 0, "", message, message))
     with tempfile.TemporaryDirectory(prefix="microtrace-") as name:
         folder = Path(name)
-        (folder / "dataset.json").write_bytes(description)
+        # Another run may have replaced the description, because not all stores can refuse that.
+        (folder / "dataset.json").write_bytes(store.read("dataset.json") or description)
+        with client_names(folder, store.url):
+            core.create(folder)
         store.download("records", folder)
         store.download("annotations", folder)
         with client_names(folder, store.url):
