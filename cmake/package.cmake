@@ -10,4 +10,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 # users of the library need.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS libglm-dev)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package_folders.cmake)
 include(CPack)
