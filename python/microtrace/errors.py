@@ -112,6 +112,11 @@ def error_of(code: int, diagnostic: Diagnostic, number: int = 0) -> Error:
     return error
 
 
+def failure(code: int, message: str, file: str = "") -> Error:
+    """Makes the exception with this message, about a file or none."""
+    return error_of(code, Diagnostic(file, 0, 0, "", message, message))
+
+
 def set_diagnostic(error: Error, diagnostic: Diagnostic) -> None:
     """Makes an error say what a diagnostic says."""
     error.args = (diagnostic.text,)

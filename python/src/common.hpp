@@ -7,6 +7,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
+#include <optional>
+#include <utility>
 
 namespace microtrace::python {
 
@@ -25,6 +27,14 @@ nb::list to_python(const std::vector<Diagnostic>& diagnostics);
 /// Runs f() without the interpreter's lock, on a separate thread if the calling thread's stack is
 /// too small for tracing rays.
 void run_unlocked(const std::function<void()>& f);
+
+/// Does the same, and returns f().
+template <class F>
+auto result_unlocked(const F& f) {
+  std::optional<decltype(f())> result;
+  run_unlocked([&] { result.emplace(f()); });
+  return *std::move(result);
+}
 
 /// Runs f() without the interpreter's lock, on a separate thread while this thread handles signals.
 /// After Ctrl-C, `cancel` returns true and f() should return soon. KeyboardInterrupt is then

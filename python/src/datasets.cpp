@@ -65,37 +65,39 @@ nb::tuple read(std::vector<std::string> words) {
   return nb::make_tuple(std::move(dataset), names);
 }
 
-std::vector<std::string> render(Dataset& self, const fs::path& path, std::uint32_t view) {
-  std::vector<std::string> names;
+/// Makes the data set without the interpreter's lock.
+void open(Dataset* self, std::vector<std::string> words, const fs::path& folder,
+          const fs::path& root, unsigned threads) {
   run_unlocked([&] {
     const FloatEnvironment environment;
-    DatasetFolder folder(path);
-    names = self.dataset().render(folder, view);
+    new (self) Dataset(std::move(words), folder, root, threads);
   });
-  return names;
+}
+
+std::vector<std::string> render(Dataset& self, const fs::path& path, std::uint32_t view) {
+  return result_unlocked([&] {
+    const FloatEnvironment environment;
+    DatasetFolder folder(path);
+    return self.dataset().render(folder, view);
+  });
 }
 
 std::vector<std::string> finish(Dataset& self, const fs::path& path) {
-  std::vector<std::string> names;
-  run_unlocked([&] {
+  return result_unlocked([&] {
     const FloatEnvironment environment;
-    names = self.dataset().finish(DatasetFolder(path));
+    return self.dataset().finish(DatasetFolder(path));
   });
-  return names;
 }
 
 bool is_whole(const fs::path& path, std::uint32_t view) {
-  bool result = false;
-  run_unlocked([&] { result = DatasetFolder(path).is_whole(view); });
-  return result;
+  return result_unlocked([&] { return DatasetFolder(path).is_whole(view); });
 }
 
 }  // namespace
 
 void bind_datasets(nb::module_& module) {
   nb::class_<Dataset>(module, "Dataset")
-      .def(nb::init<std::vector<std::string>, fs::path, fs::path, unsigned>(),
-           nb::call_guard<nb::gil_scoped_release, FloatEnvironment>())
+      .def("__init__", &open)
       .def("order", [](Dataset& self) { return self.dataset().order(); })
       .def("content",
            [](Dataset& self) {

@@ -85,8 +85,7 @@ void bind_images(nb::module_& module) {
            [](SharedMap* self, const AnyArray& pixels) { new (self) SharedMap{make_map(pixels)}; })
       .def_prop_ro("pixels", pixels_of_map);
   module.def("load_map", [](const std::filesystem::path& path) {
-    LoadedRadianceMap loaded;
-    run_unlocked([&] { loaded = load_radiance_map(path); });
+    LoadedRadianceMap loaded = result_unlocked([&] { return load_radiance_map(path); });
     return nb::make_tuple(SharedMap{std::move(loaded.map)}, to_python(loaded.warnings));
   });
 }

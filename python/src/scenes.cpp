@@ -48,9 +48,7 @@ std::unique_ptr<SharedFile> open(const std::filesystem::path& path, const std::s
                       .variant = std::move(variant),
                       .animation = std::move(animation),
                       .allowed_folders = std::move(allowed_folders)};
-  std::unique_ptr<SharedFile> file;
-  run_unlocked([&] { file = std::make_unique<SharedFile>(path, std::move(options)); });
-  return file;
+  return result_unlocked([&] { return std::make_unique<SharedFile>(path, std::move(options)); });
 }
 
 nb::tuple at(SharedFile& shared, std::optional<double> time) {
@@ -95,9 +93,7 @@ void bind_scenes(nb::module_& module) {
       .def_prop_ro("is_flat", [](const Prepared& self) { return self.is_flat; })
       .def_prop_ro("has_bounded_object",
                    [](const Prepared& self) {
-                     bool result = false;
-                     run_unlocked([&] { result = has_bounded_object(self.scene.scene()); });
-                     return result;
+                     return result_unlocked([&] { return has_bounded_object(self.scene.scene()); });
                    })
       .def_prop_ro("has_lights",
                    [](const Prepared& self) { return !self.scene.scene().lights.empty(); })

@@ -76,8 +76,7 @@ void nearest(const SolidOf& self, const Points& points, const Output<double>& po
 /// The ends of open edges, (n, 2, 3). The array keeps the solid, which owns them.
 nb::object open_edges(const nb::object& self) {
   const auto& solid = nb::cast<const SolidOf&>(self).solid;
-  std::span<const OpenEdge> edges;
-  run_unlocked([&] { edges = solid.open_edges(); });
+  const std::span<const OpenEdge> edges = result_unlocked([&] { return solid.open_edges(); });
   const double* data = edges.empty() ? nullptr : &edges.front().a.x;
   return nb::cast(nb::ndarray<nb::numpy, const double>(data, {edges.size(), 2, 3}, self,
                                                        {sizeof(OpenEdge) / sizeof(double), 3, 1}));
@@ -97,9 +96,7 @@ void bind_solids(nb::module_& module) {
           nb::arg("scene"), nb::arg("object").none())
       .def("is_closed",
            [](const SolidOf& self) {
-             bool is_closed = false;
-             run_unlocked([&] { is_closed = self.solid.is_closed(); });
-             return is_closed;
+             return result_unlocked([&] { return self.solid.is_closed(); });
            })
       .def("open_edges", &open_edges)
       .def("locate", &locate)

@@ -21,7 +21,7 @@ from typing import Any
 
 from distributed import KilledWorker
 
-from ..errors import Diagnostic, error_of
+from ..errors import failure
 
 #: Seconds that a task should take.
 _TARGET = 4.0
@@ -256,7 +256,7 @@ class RangeRun:
                 self.client.cancel([self._flights.pop(key).future])
         if self.progress is not None and self.progress(1 - self._left / self.count) is False:
             message = "canceled by the progress function"
-            raise error_of(7, Diagnostic("", 0, 0, "", message, message))
+            raise failure(7, message)
 
     def _divide_slow(self) -> None:
         """Submits the ranges of slow tasks again, in parts, while workers are idle."""

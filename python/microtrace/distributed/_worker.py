@@ -18,7 +18,7 @@ from typing import Any
 from distributed import Client, WorkerPlugin, get_worker
 
 from .. import __version__
-from ..errors import Diagnostic, Error, error_of, set_diagnostic
+from ..errors import Diagnostic, Error, failure, set_diagnostic
 from ._ranges import Outcome
 
 
@@ -154,7 +154,7 @@ def attempt(job: Job, work: Callable[[], tuple[float, Any]]) -> Outcome:
             f"the worker {address} has microtrace {__version__}, the client {job.version}; "
             "install the same version"
         )
-        raise error_of(2, Diagnostic("", 0, 0, "", message, message))
+        raise failure(2, message)
     try:
         seconds, value = work()
     except (OSError, MemoryError) as error:

@@ -20,7 +20,7 @@ from microtrace_program import find_denoiser
 
 from .. import _core
 from .._arrays import MOST, as_integer, as_path, as_text
-from ..errors import Diagnostic, error_of, warn
+from ..errors import Diagnostic, failure, warn
 from ..pictures import _shown
 from ._ranges import Outcome, RangeRun
 from ._store import Store
@@ -138,7 +138,7 @@ def _require_same(own: tuple[str, int], client: tuple[str, int]) -> None:
             f"the worker {address} decodes the scene's files differently from the client: one of "
             "them lacks a module of microtrace; install the same modules on both"
         )
-    raise error_of(2, Diagnostic("", 0, 0, "", message, message))
+    raise failure(2, message)
 
 
 def _moved(words: Sequence[str], folder: str, root: Path) -> list[str]:
@@ -295,7 +295,7 @@ def _create(core: _core.Dataset, store: Store) -> tuple[bytes, bool]:
             (folder / "dataset.json").write_bytes(known)
         elif not store.is_empty():
             message = f"{store.url}: contains files that are not a data set; name another folder"
-            raise error_of(2, Diagnostic(store.url, 0, 0, "", message, message))
+            raise failure(2, message, store.url)
         with client_names(folder, store.url):
             core.create(folder)
         description = (folder / "dataset.json").read_bytes()

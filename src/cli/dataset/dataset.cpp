@@ -34,6 +34,11 @@ void for_each_look(const std::vector<DatasetView>& views, const F& f) {
 
 namespace fs = std::filesystem;
 
+[[noreturn]] void refuse_shared_name(const std::string& name, const std::string& reason = "") {
+  refuse_usage("--name: " + reason + "views share the file name " + name +
+               "; add {view:06d} or give the views different names");
+}
+
 /// Throws Error (usage) if two views would have files with the same name, or a view those of other
 /// files of the data set.
 void check_names(const Arguments& arguments, const std::vector<DatasetView>& views) {
@@ -48,10 +53,7 @@ void check_names(const Arguments& arguments, const std::vector<DatasetView>& vie
         refuse_usage("--name: the folder " + std::string(folder) +
                      " is for other files of the data set; name another one");
     }
-    if (!names.insert(name).second) {
-      refuse_usage("--name: views share the file name " + name +
-                   "; add {view:06d} or give the views different names");
-    }
+    if (!names.insert(name).second) refuse_shared_name(name);
   }
 }
 
@@ -65,12 +67,8 @@ void check_case(const fs::path& folder, const Arguments& arguments,
   for (std::uint32_t i = 0; i < views.size(); ++i) {
     std::string name = stem_of(arguments, views[i], i);
     for (char& c : name) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    if (!names.insert(name).second) {
-      refuse_usage("--name: " + folder.string() +
-                   " ignores the case of letters, so views share the "
-                   "file name " +
-                   name + "; add {view:06d} or give the views different names");
-    }
+    if (!names.insert(name).second)
+      refuse_shared_name(name, folder.string() + " ignores the case of letters, so ");
   }
 }
 
