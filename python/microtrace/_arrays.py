@@ -44,12 +44,16 @@ def as_reals(values: Any, what: str) -> Array:
 
 
 def as_numbers(values: Any, what: str, width: int) -> Array:
-    """Returns an array of shape (..., width) of float32 or float64, in native byte order.
+    """Returns an array of shape (..., width) of float32 or float64, in native byte order. An empty
+    list has no rows.
 
     Neither copies nor converts float32 and float64 arrays. Raises ValueError for a different width,
     and TypeError for anything but real numbers.
     """
-    array = as_reals(values, what)
+    array = as_array(values, what)
+    if array.shape == (0,):  # an empty list
+        return np.zeros((0, width), np.float32)
+    array = as_reals(array, what)
     if array.ndim == 0 or array.shape[-1] != width:
         raise ValueError(f"{what} must have shape (..., {width}), not {array.shape}")
     if array.dtype.kind == "f" and array.dtype.itemsize in (4, 8):
@@ -64,12 +68,19 @@ def as_float32(values: npt.ArrayLike) -> npt.NDArray[np.float32]:
         return np.ascontiguousarray(values, np.float32)
 
 
+def as_float32_toward(values: Array, limit: float) -> npt.NDArray[np.float32]:
+    """Like as_float32(), but rounds numbers toward the limit, which is infinity or -infinity."""
+    rounded = as_float32(values)
+    is_beyond = rounded < values if limit > 0 else rounded > values
+    if not is_beyond.any():
+        return rounded
+    return np.where(is_beyond, np.nextafter(rounded, np.float32(limit)), rounded)
+
+
 def as_rows(values: Any, what: str, width: int) -> Array:
     """Like as_numbers(), for shape (n, width) and with strides that C++ code can read."""
     array = as_array(values, what)
-    if array.shape == (0,):
-        return np.zeros((0, width), np.float32)
-    if array.ndim != 2 or array.shape[1] != width:
+    if array.shape != (0,) and (array.ndim != 2 or array.shape[1] != width):
         raise ValueError(f"{what} must have shape (n, {width}), not {array.shape}")
     return readable(as_numbers(array, what, width))
 

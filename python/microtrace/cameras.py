@@ -24,7 +24,8 @@ class _Posed(Brief):
 
 @dataclass(eq=False, repr=False, kw_only=True)
 class PerspectiveCamera(_Posed):
-    """Perspective projection with square pixels."""
+    """Perspective projection with square pixels. The vertical field of view is in radians;
+    look_at() takes degrees."""
 
     vertical_fov: float = 1.0  #: radians, in (0, pi)
     #: If given, the vertical field of view spans the height of a window with this width / height,

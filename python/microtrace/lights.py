@@ -34,7 +34,7 @@ class PointLight(Brief):
 @dataclass(eq=False, repr=False)
 class SpotLight(Brief):
     """Light from a point in a cone: full intensity within the inner angle, and none beyond the
-    outer."""
+    outer. Both angles are in radians and measured from the axis; the intensity is in candela."""
 
     position: Vector = (0.0, 0.0, 0.0)  #: relative to Scene.origin
     direction: Vector = (0.0, 0.0, -1.0)  #: direction of the cone's axis; any length
@@ -51,7 +51,7 @@ Light = DirectionalLight | PointLight | SpotLight
 
 @dataclass(eq=False, repr=False)
 class Environment(Brief):
-    """Light from all directions in path-traced pictures."""
+    """Light from all directions in path-traced pictures. The rotation is in radians."""
 
     #: The built-in studio, uniform radiance (linear Rec. 709), or a latitude-longitude map.
     content: Literal["studio"] | Vector | RadianceMap = (1.0, 1.0, 1.0)

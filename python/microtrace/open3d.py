@@ -94,10 +94,8 @@ class RaycastingScene:
         """
         positions = vertex_positions if vertices is None else vertices
         indices = triangle_indices if triangles is None else triangles
-        if mesh is None and indices is None:
-            mesh = positions
-        if mesh is not None:
-            positions, indices = _arrays_of(mesh)
+        if mesh is not None or indices is None:
+            positions, indices = _arrays_of(positions if mesh is None else mesh)
         corners = as_rows(_numbers(positions), "vertex_positions", 3)
         faces = as_indices(_numbers(indices), "triangle_indices", 3)
         # Queries would fail later, and all of them.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import (
     MOST,
-    as_float32,
+    as_float32_toward,
     as_instance,
     as_integer,
     as_numbers,
@@ -39,10 +40,14 @@ class PreparedScene:
     """A scene with its bounding volume hierarchy. Immutable; any number of threads may use it.
 
     Rays are arrays of shape (..., 6): origin and direction in world space. Directions may have any
-    nonzero length. Scene.origin is subtracted from origins in float64, and the results are rounded
-    to float32. float32 rays remain unchanged if Scene.origin is zero. Results are those of real
-    arithmetic on the float32 numbers of scene and rays. A ray that contains a number that is not
-    finite hits nothing.
+    length from about 1e-45 to 3e38, the range of float32. Scene.origin is subtracted from origins
+    in float64, and the results are rounded to float32. float32 rays remain unchanged if
+    Scene.origin is zero. Results are those of real arithmetic on the float32 numbers of scene and
+    rays. A ray that contains a number that is not finite in float32, or whose direction is zero
+    there, hits nothing.
+
+    Queries find all surfaces. Materials have no effect on them: the backs of one-sided surfaces and
+    transparent parts, which pictures and their AOVs leave out, are hit too.
     """
 
     def __init__(
@@ -99,9 +104,10 @@ class PreparedScene:
 
         Args:
             rays: (..., 6) real numbers: origin and direction.
-            t_min: least t of hits, at least 0, broadcast to the leading shape. Default: the least
-                float32 above 0.
-            t_max: greatest t of hits, broadcast to the leading shape. Default: infinity.
+            t_min: least t of hits, at least 0, broadcast to the leading shape. Rounded up to
+                float32. Default: the least float32 above 0.
+            t_max: greatest t of hits, broadcast to the leading shape. Rounded down to float32.
+                Default: infinity.
             fields: the arrays to compute. Computing fewer arrays is faster.
             threads: number of threads; 0 means all processors.
 
@@ -195,8 +201,8 @@ class PreparedScene:
         t_max: npt.ArrayLike | None = None,
         threads: int = 0,
     ) -> npt.NDArray[np.bool_]:
-        """Returns True for each ray that hits anything. Takes the arguments of intersect() and is
-        faster."""
+        """Returns True for each ray that hits anything. Takes the arguments of intersect(), and is
+        faster than it with its default fields."""
         flat, shape, low, high = _rays(rays, t_min, t_max)
         result = np.empty(len(flat), np.bool_)
         self._core.occluded(flat, low, high, result, as_threads(threads))
@@ -367,7 +373,7 @@ def _rays(
     shape = array.shape[:-1]
     flat = readable(array.reshape(-1, 6))
 
-    def end(values: npt.ArrayLike | None, what: str) -> Array | None:
+    def end(values: npt.ArrayLike | None, what: str, limit: float) -> Array | None:
         if values is None:
             return None
         numbers = as_reals(values, what)
@@ -375,9 +381,9 @@ def _rays(
             each = np.broadcast_to(numbers, shape)
         except ValueError:
             raise ValueError(f"{what} must broadcast to {shape}, not {numbers.shape}") from None
-        return as_float32(each).reshape(-1)
+        return as_float32_toward(each, limit).reshape(-1)
 
-    low, high = end(t_min, "t_min"), end(t_max, "t_max")
+    low, high = end(t_min, "t_min", inf), end(t_max, "t_max", -inf)
     if low is not None and (low < 0).any():
         raise ValueError(f"t_min must not be negative, is {low.min()}")
     return flat, shape, low, high

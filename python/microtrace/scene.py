@@ -80,9 +80,9 @@ class Scene(Brief):
             colors: (V, 3) or (V, 4), either linear Rec. 709 numbers in [0, 1] or sRGB integers of
                 the type uint8.
             material: default: Material().
-            transform: (4, 4) matrix from the mesh's space to world space, applied in float64 with
-                results rounded once. If it mirrors the mesh, the winding is reversed, so front
-                faces stay front faces.
+            transform: (4, 4) matrix from the mesh's space to that of the scene, relative to origin,
+                applied in float64 with results rounded once. If it mirrors the mesh, the winding is
+                reversed, so front faces stay front faces.
             name: any text.
 
         Raises:

@@ -35,7 +35,7 @@ class Mesh(Brief):
 
 @dataclass(eq=False, repr=False)
 class Sphere(Brief):
-    """The sphere with this center and radius."""
+    """The sphere with this center and radius. Its front is the outside."""
 
     center: Vector = (0.0, 0.0, 0.0)
     radius: float = 1.0
@@ -43,7 +43,7 @@ class Sphere(Brief):
 
 @dataclass(eq=False, repr=False)
 class Plane(Brief):
-    """The infinite plane through `point`."""
+    """The infinite plane through `point`. Its front is the side to which the normal points."""
 
     point: Vector = (0.0, 0.0, 0.0)
     normal: Vector = (0.0, 1.0, 0.0)  #: any length
@@ -51,7 +51,8 @@ class Plane(Brief):
 
 @dataclass(eq=False, repr=False)
 class Disc(Brief):
-    """The part of a plane within `radius` of `center`."""
+    """The part of a plane within `radius` of `center`. Its front is the side to which the normal
+    points."""
 
     center: Vector = (0.0, 0.0, 0.0)
     normal: Vector = (0.0, 1.0, 0.0)  #: any length
@@ -60,7 +61,7 @@ class Disc(Brief):
 
 @dataclass(eq=False, repr=False)
 class Triangle(Brief):
-    """A single triangle."""
+    """A single triangle. From its front, a, b and c are counterclockwise."""
 
     a: Vector
     b: Vector
@@ -69,7 +70,8 @@ class Triangle(Brief):
 
 @dataclass(eq=False, repr=False)
 class Quadric(Brief):
-    """The surface a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0."""
+    """The surface a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0. Its front
+    is the side where the polynomial is positive, so the inside of a body is negative."""
 
     coefficients: Sequence[float] = field(default=(0.0,) * 10)  #: a to j
 
@@ -89,5 +91,6 @@ class Object(Brief):
     shape: Shape
     material: Material | None = None  #: None means Material()
     name: str = ""
-    #: For meshes only: (3, 4) or (4, 4), an affine transform that is applied to the vertices.
+    #: For meshes only: (3, 4) or (4, 4), an affine transform of the vertices to positions relative
+    #: to Scene.origin.
     placement: npt.ArrayLike | None = None

@@ -16,6 +16,9 @@ from .scene import Scene
 
 Array = npt.NDArray[Any]
 
+#: Sums of turns around rays that differ less are equal.
+_ANGLE_ERROR = 1e-6
+
 
 class RayMeshIntersector:
     """A replacement for trimesh.ray.ray_triangle.RayMeshIntersector with exact results.
@@ -24,10 +27,10 @@ class RayMeshIntersector:
     they are rounded to float32, and so are directions, which powers of two scale exactly. Hits are
     those of real arithmetic on these numbers, so rays never slip between triangles. As in trimesh,
     hits at a ray's origin count, and triangles in whose plane the ray lies are not hit; rays still
-    hit their neighbors at the common edges. Of several triangles that a ray enters at a common
-    vertex or edge, only one counts, and so does one of those that it leaves there. Hits at
-    different points count, however close they are. If the mesh has changed, the next query prepares
-    it again.
+    hit their neighbors at the common edges. Of the triangles at a vertex or edge where a ray enters
+    or leaves a closed mesh, only one counts; where it only touches the mesh, two count, one of each
+    side. Hits at different points count, however close they are. If the mesh has changed, the next
+    query prepares it again.
     """
 
     def __init__(self, mesh: Any, **_: Any) -> None:
@@ -159,9 +162,7 @@ class RayMeshIntersector:
         is_tie = place[1:] == place[:-1]
         at = np.nonzero(np.append(is_tie, False) | np.insert(is_tie, 0, False))[0]
         corners = self._vertices[np.asarray(self.mesh.faces)[tri[at]]]
-        # A ray through a sharp edge may enter and leave at the same point.
-        group = 2 * place[at] + (facing[counts][at] > 0)
-        is_new[at] = ~_repeats_part(group, corners, rays[ray[at]])
+        is_new[at] = _counts_at_point(place[at], facing[counts][at], corners, rays[ray[at]])
         return t[is_new], tri[is_new], ray[is_new]
 
     def _nearest(self, rays: Array) -> tuple[Array, Array, Array]:
@@ -219,32 +220,44 @@ class RayMeshIntersector:
         return np.asarray(o + parameter[:, None] * d + self._center)
 
 
-def _repeats_part(group: Array, corners: Array, rays: Array) -> npt.NDArray[np.bool_]:
-    """True for each hit at an edge or a vertex of its triangle that is also part of the triangle of
-    an earlier hit in the same group. Other hits of a group are of overlapping triangles, beside the
-    common part by more than the rounding errors of float64.
+def _counts_at_point(group: Array, facing: Array, corners: Array, rays: Array) -> Array:
+    """Returns which hits of rays at the same point count.
+
+    All hits inside of triangles do. Those at edges and vertices count as often as the surface goes
+    around the ray there. A ray that enters or leaves a closed mesh hits one triangle, and a ray
+    that only touches it two, one of each side.
 
     Args:
-        group: (n,) integers, equal for hits of the same ray at the same point.
+        group: (n,) ascending integers, equal for hits of the same ray at the same point.
+        facing: (n,) nonzero, its sign tells at which side the ray arrives.
         corners: (n, 3, 3), of the triangles.
         rays: (n, 6).
     """
-    meets, ends = _met_parts(corners, rays)
-    hit, part = np.nonzero(meets)
-    low, high = np.sort(ends[hit, part], axis=1).T
-    part_id = np.unique(low * (3 * len(group) + 1) + high, return_inverse=True)[1]
-    key = np.unique(group[hit], return_inverse=True)[1] * len(hit) + part_id
-    # np.unique() returns the first index of each value, and hits are in ascending order.
-    first, inverse = np.unique(key, return_index=True, return_inverse=True)[1:]
-    repeats = np.zeros(len(group), bool)
-    repeats[hit[hit[first[inverse]] < hit]] = True
-    return repeats
+    turns = _turns(corners, rays)
+    starts = np.insert(np.diff(group) != 0, 0, True)[: len(group)]
+    of = np.cumsum(starts) - 1
+    is_part = turns < 1
+    parts = np.where(is_part, turns, 0)
+    # The turns around the ray of triangles of one side and of the other.
+    around = [np.bincount(of, np.where(facing * side > 0, parts, 0)) for side in (1, -1)]
+    net = around[0] - around[1]
+    # Around the boundary of an open mesh, the turns are no integer.
+    is_whole = np.abs(net - np.round(net)) < _ANGLE_ERROR
+    touches = is_whole & (np.round(net) == 0)
+    result = ~is_part
+    for side, turn in zip((1, -1), around):
+        most = np.where(
+            is_whole, np.maximum(np.round(side * net), touches), np.ceil(turn - _ANGLE_ERROR)
+        )
+        mine = is_part & (facing * side > 0)
+        earlier: Array = np.cumsum(mine) - mine
+        result |= mine & (earlier - earlier[starts][of] < most[of])
+    return result
 
 
-def _met_parts(corners: Array, rays: Array) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.int64]]:
-    """Returns whether rays meet the three edges and the three vertices of their triangles, (n, 6),
-    and the ends of these parts as numbers of positions, (n, 6, 2). Vertices with different indices
-    coincide at seams."""
+def _turns(corners: Array, rays: Array) -> Array:
+    """Returns the parts of a turn around each ray that its triangle, which it hits, takes: 1 inside
+    of the triangle, 1/2 at an edge. Edges and vertices are found by float64 numbers."""
     o, d = as_float32(rays).astype(np.float64).reshape(-1, 2, 3).transpose(1, 0, 2)
     to = corners - o[:, None]
 
@@ -252,18 +265,22 @@ def _met_parts(corners: Array, rays: Array) -> tuple[npt.NDArray[np.bool_], npt.
         """Returns the products of whose differences the components of a x b consist."""
         return np.roll(a, -1, 1) * np.roll(b, -2, 1), np.roll(a, -2, 1) * np.roll(b, -1, 1)
 
-    meets = np.zeros((len(rays), 6), bool)
+    turns = np.ones(len(rays))
     for i in range(3):
         left, right = products(to[:, i], to[:, (i + 1) % 3])
         volume = ((left - right) * d).sum(axis=1)
         size = ((np.abs(left) + np.abs(right)) * np.abs(d)).sum(axis=1)
-        meets[:, i] = np.abs(volume) <= 1e-14 * size
+        turns[np.abs(volume) <= 1e-14 * size] = 0.5
+    for i in range(3):
         left, right = products(to[:, i], d)
-        near = np.abs(left - right) <= 1e-14 * (np.abs(left) + np.abs(right))
-        meets[:, 3 + i] = near.all(axis=1)
-    points = corners.reshape(-1, 3) + 0.0  # replaces -0 by 0
-    position = np.unique(points, axis=0, return_inverse=True)[1].reshape(-1, 3)
-    return meets, position[:, [[0, 1], [1, 2], [2, 0], [0, 0], [1, 1], [2, 2]]]
+        meets = (np.abs(left - right) <= 1e-14 * (np.abs(left) + np.abs(right))).all(axis=1)
+        # The angle between the triangle's sides, seen along the ray.
+        a, b = (
+            np.cross(d, corners[:, (i + k) % 3] - corners[:, i]).astype(np.float64) for k in (1, 2)
+        )
+        sine, cosine = np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(axis=1)
+        turns[meets] = (np.arctan2(sine, cosine) / (2 * np.pi))[meets]
+    return turns
 
 
 def install() -> None:

@@ -42,6 +42,7 @@ def test_wrong_triangles_are_not_added(box):
         (np.diag([1, 1, np.nan]), [[0, 1, 2]], ValueError, "vertex_positions must be finite"),
         (np.diag([1, 1, 1e39]), [[0, 1, 2]], ValueError, "vertex_positions must be finite"),
         (np.eye(3), None, TypeError, "expected vertex positions and triangle indices, or a mesh"),
+        (None, None, TypeError, "expected vertex positions and triangle indices, or a mesh"),
     ]:
         with pytest.raises(error, match=words):
             box.add_triangles(vertices, triangles)

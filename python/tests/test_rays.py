@@ -123,7 +123,7 @@ def test_layouts_give_the_same_hits(ball, rng):
     assert shaped.t.shape == (3, 4, 5) and shaped.normal.shape == (3, 4, 5, 3)
     assert np.array_equal(shaped.t.ravel(), expected.t)
     assert ball.intersect(rays[0]).t.shape == ()
-    assert ball.intersect(np.zeros((0, 6))).t.shape == (0,)
+    assert ball.intersect(np.zeros((0, 6))).t.shape == ball.intersect([]).t.shape == (0,)
 
 
 def test_float64_is_rounded_once():
@@ -178,6 +178,38 @@ def test_intervals(ball):
     assert ball.occluded([ray, ray], t_max=[above, 3]).tolist() == [True, False]
     assert ball.count_crossings([ray, ray], t_min=[0, third - 0.5]).tolist() == [3, 1]
     assert np.all(np.diff(all_hits.t) >= 0)
+
+
+def test_float64_ends_exclude_what_is_beyond_them():
+    """The ends of lines of sight between points on surfaces, which float32 can't tell from 1."""
+    scene = mt.Scene()
+    scene.add_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    prepared, ray = scene.prepare(), [0.25, 0.25, 1, 0, 0, -1]
+    for off in (1e-8, 1e-9, 1e-15):
+        assert not prepared.occluded(ray, t_max=1 - off)
+        assert prepared.occluded(ray, t_max=1 + off)
+        assert not prepared.occluded(ray, t_min=1 + off)
+        assert prepared.occluded(ray, t_min=1 - off)
+    assert prepared.occluded(ray, t_min=1, t_max=1)
+    on_surface = [0.25, 0.25, 0, 0, 0, 1]
+    assert not prepared.occluded(on_surface, t_min=1e-46)
+    assert prepared.occluded(on_surface, t_min=0)
+    assert prepared.occluded(ray, t_max=1e39) and not prepared.occluded(ray, t_min=1e39)
+
+
+def test_queries_find_surfaces_that_pictures_leave_out():
+    scene = mt.Scene()
+    material = mt.Material(double_sided=False, alpha_mode="mask", base_color_factor=(1, 1, 1, 0))
+    scene.add_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], material=material)
+    prepared = scene.prepare()
+    for z in (1, -1):
+        assert prepared.intersect([0.25, 0.25, z, 0, 0, -z]).t == 1
+
+
+def test_transforms_are_relative_to_the_scene():
+    scene = mt.Scene(origin=(5e5, 4.5e6, 0))
+    scene.add_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], transform=np.eye(4))
+    assert scene.prepare().intersect([5e5 + 0.25, 4.5e6 + 0.25, 1, 0, 0, -1]).hit
 
 
 def test_all_hits_repeat_intersect(ball, rng):
