@@ -5,6 +5,7 @@ import dataclasses
 import hashlib
 import json
 import os
+import re
 import shlex
 import struct
 import subprocess
@@ -90,9 +91,13 @@ def samples_of(checkpoint):
     return bytes(samples)
 
 
+class MissingModule(Exception):
+    """The program lacks a module that reads or writes the question's images."""
+
+
 def ask(program, question, threads=1, isa=None, with_samples=True):
     """Returns the hashes of the program's outputs, with the same names as in pins. Checks that a path-traced picture casts
-    path and shadow rays."""
+    path and shadow rays. Raises MissingModule if an image can't be read or written."""
     command = [program, *shlex.split(question.text), "--threads", str(threads)]
     environment = dict(os.environ)
     if isa:
@@ -100,10 +105,12 @@ def ask(program, question, threads=1, isa=None, with_samples=True):
     with tempfile.TemporaryDirectory() as folder:
         checkpoint = Path(folder) / "samples"
         if question.has_light:
-            command += ["--quiet", "--stats=json"]
+            command.append("--stats=json")
             if with_samples:
                 command += ["--checkpoint", checkpoint]
         result = subprocess.run(command, capture_output=True, cwd=SCENES, env=environment)
+        if re.search(rb"the module \S+ is not in ", result.stderr):
+            raise MissingModule(question.text)
         if result.returncode != 0 or not result.stdout:
             raise RuntimeError(f"{question.text}: exit code {result.returncode}\n{result.stderr.decode()}")
         answer = {"picture": sha256(result.stdout)}

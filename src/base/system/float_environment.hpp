@@ -82,6 +82,26 @@ class FloatControl {
   std::uint64_t fpcr_ = 0;
 };
 
+#elif defined(__riscv)
+
+/// The rounding mode of the processor, which neither flushes subnormals nor traps.
+class FloatControl {
+ public:
+  static FloatControl get() {
+    FloatControl now;
+    __asm__ volatile("frrm %0" : "=r"(now.mode_));
+    return now;
+  }
+  void set() const { __asm__ volatile("fsrm %0" : : "r"(mode_)); }
+
+  [[nodiscard]] bool is_right() const { return mode_ == kNearest; }
+  [[nodiscard]] static FloatControl righted() { return {}; }
+
+ private:
+  static constexpr unsigned long kNearest = 0;
+  unsigned long mode_ = kNearest;
+};
+
 #else
 #error "Write here how this processor's rounding mode and flushing of subnormals are read and set."
 #endif

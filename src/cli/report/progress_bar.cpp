@@ -55,13 +55,14 @@ std::string line_of(double fraction, double seconds, std::uint32_t pictures, std
   return "[" + std::string(filled, '#') + std::string(width - filled, '.') + "] " + text;
 }
 
-std::atomic<bool> is_drawn = false;
+// RISC-V has no instruction to exchange a single byte.
+std::atomic<int> is_drawn = 0;
 
 }  // namespace
 
 void clear_progress_bar() {
   constexpr std::string_view kClear = "\r\x1b[K";
-  if (!is_drawn.exchange(false)) return;
+  if (is_drawn.exchange(0) == 0) return;
   const ssize_t ignored = ::write(STDERR_FILENO, kClear.data(), kClear.size());
   static_cast<void>(ignored);
 }
@@ -79,7 +80,7 @@ std::function<void(double)> progress_bar(std::uint32_t pictures) {
       const double seconds = std::chrono::duration<double>(now - start).count();
       const std::string line = line_of(fraction, seconds, pictures, columns());
       std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
-      is_drawn = true;
+      is_drawn = 1;
     }
   };
 }
