@@ -25,9 +25,7 @@ PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options
                                  : "--eye: the direction to the target " + problem->message);
     }
     if (problem->field == "position") refuse_usage("--eye: " + problem->message);
-    refuse_usage(options.up == DVec3(0)
-                     ? "--up: must not be zero"
-                     : "--up: must not be parallel to the direction from --eye to the target");
+    refuse_usage("--up: " + problem->message);
   }
   return camera;
 }

@@ -280,6 +280,14 @@ class DarkPictures(ProgramTest):
         self.assertIn("0 lights, a black environment; add light",
                       self.warnings({"environment": {"type": "uniform", "color": [0, 0, 0]}}))
 
+    def test_cameras_inside_of_closed_objects(self):
+        room = {"objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 90}]}
+        for options in ((), ("--env", "studio"), ("--env", "1,1,1")):
+            text = self.warnings(room, *options)
+            self.assertIn("the camera may be inside a closed object; look from outside with --view 30,25", text)
+            self.assertNotIn("add light", text)
+        self.assertEqual(self.warnings(room, "--view", "30,25"), "")
+
     def test_the_suggested_exposure_brightens_the_picture(self):
         document = {"lights": [self.lamp(1e-5, "directional")]}
         stops = re.search(r"--exposure (\d+)\n", self.warnings(document)).group(1)
@@ -332,6 +340,14 @@ class DarkPictures(ProgramTest):
         self.assertIn("face away; look from another side with --view", warnings("--view", "front"))
         self.assertIn("with --camera", warnings("--eye", "0,0,9", "--target", "0,0,18"))
         self.assertNotIn("warning", warnings("--view", "210,-25"))
+
+    def test_framed_scenes_without_points(self):
+        for shape in ({"type": "quadric", "coefficients": {"a": 1, "b": 1, "c": 1, "j": 1}},
+                      {"type": "triangle", "a": [0, 0, 0], "b": [0, 0, 0], "c": [0, 0, 0]}):
+            (self.folder / "empty.json").write_text(json.dumps({"version": 1, "objects": [shape]}))
+            text = self.run_program("empty.json", "--size", "16x12", "-o", "out.ppm").stderr.decode()
+            self.assertIn("sees nothing of the scene; its objects may be empty", text)
+            self.assertNotIn("one-sided", text)
 
     def test_strict_refuses(self):
         self.assertIn("most of the visible scene is black", self.warnings({"lights": [self.lamp(0)]}, "--strict", code=3))

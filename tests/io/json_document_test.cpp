@@ -143,6 +143,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"[1,\0 2]"sv, 1, 4, "a zero byte is outside of strings; this is not a JSON text"},
         BadText{"[1 // one\n]", 1, 4, "comments are not JSON; remove it"},
         BadText{"/* */ []", 1, 1, "comments are not JSON; remove it"},
+        BadText{"[1/3]", 1, 3, "expected ',' or ']', found \"/\""},
+        BadText{"[1\xEF\xBC\x8C 2]", 1, 3,
+                "expected ',' or ']', found \"\xEF\xBC\x8C\"; JSON needs the ASCII character ,"},
+        BadText{
+            "[\xEF\xBC\x91]", 1, 2,
+            "expected a value or ']', found \"\xEF\xBC\x91\"; JSON needs the ASCII character 1"},
+        BadText{"{\xEF\xBC\x82x\":1}", 1, 2,
+                "expected a key in double quotes or '}', found \"\xEF\xBC\x82x\"; JSON needs the "
+                "ASCII character \""},
+        BadText{"{}\xEF\xBB\xBF{}", 1, 3,
+                "a byte order mark is allowed only at the start; remove it"},
+        BadText{"[\xEF]", 1, 2, "is not UTF-8 here; save the file as UTF-8"},
         BadText{"['a']", 1, 2, "JSON strings need double quotes"},
         BadText{"[NaN]", 1, 2, "\"NaN\" is not JSON; write a finite number"},
         BadText{"[-Infinity]", 1, 2, "\"-Infinity\" is not JSON; write a finite number"},

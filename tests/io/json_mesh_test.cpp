@@ -85,6 +85,25 @@ TEST_F(MeshObject, IsPlacedNamedAndColored) {
   }
 }
 
+TEST_F(MeshObject, MayNotHaveTheNameOfAnotherObject) {
+  const std::string mesh = R"({"name": "a", "type": "mesh", "file": "gltf/cube.glb"})";
+  const std::string name = load(mesh).scene.objects[0].name.str();
+  const std::string ball =
+      R"({"name": ")" + name + R"(", "type": "sphere", "center": [0,0,0], "radius": 1})";
+  for (const bool mesh_is_first : {true, false}) {
+    try {
+      (void)load(mesh_is_first ? mesh + "," + ball : ball + "," + mesh);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+      EXPECT_EQ(error.diagnostic().pointer, "/objects/1");
+      EXPECT_EQ(error.diagnostic().message,
+                "the name of its object \"" + name +
+                    "\" is already used by /objects/0; names must differ");
+    }
+  }
+}
+
 TEST_F(MeshObject, IgnoresCamerasOfItsFile) {
   EXPECT_EQ(load(R"({"type": "mesh", "file": "gltf/cube.glb"})").scene.cameras.size(), 1U);
 }

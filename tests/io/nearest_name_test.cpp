@@ -44,7 +44,7 @@ TEST(NamedItems, AreFoundByNameFirstAndThenByIndex) {
 TEST(NamedItems, AreListedIfNoneIsSelected) {
   const std::vector<std::string> names{"front", "", "a\nb"};
   EXPECT_EQ(no_such_item("camera", "left", names),
-            "there is no camera \"left\"; the scene has 0 (front), 1 (unnamed), 2 (a\\x0ab)");
+            "there is no camera \"left\"; choose 0 (front), 1 (unnamed), 2 (a\\x0ab)");
   EXPECT_EQ(no_such_item("variant", "red", {}), "there is no variant \"red\"; the scene has none");
   const std::vector<std::string> many(1000, std::string(1000, 'x'));
   const std::string text = no_such_item("camera", "left", many);

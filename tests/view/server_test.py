@@ -474,7 +474,7 @@ class Pictures(unittest.TestCase):
                     self.assertTrue(answer.json["error"], words)
             last = viewer.draw(["--camera", "nobody"], path)[-1]
             self.assertEqual(last.headers["Content-Type"], "application/json")
-            self.assertIn('there is no camera "nobody"; the scene has 0 (camera1)', last.json["error"])
+            self.assertIn('there is no camera "nobody"; choose 0 (camera1)', last.json["error"])
             self.assertEqual(viewer.draw(["--size", "16x12"], path)[-1].headers["Content-Type"], "image/png")
 
     def test_description_of_an_asset(self):

@@ -19,8 +19,9 @@ std::string no_such_item(std::string_view kind, std::string_view wanted,
                          std::span<const std::string> names) {
   constexpr std::size_t kShown = 20, kLength = 64;
   std::string text = "there is no ";
-  text.append(kind).append(" ").append(in_quotes(wanted)).append("; the scene has ");
-  if (names.empty()) return text += "none";
+  text.append(kind).append(" ").append(in_quotes(wanted));
+  if (names.empty()) return text += "; the scene has none";
+  text += "; choose ";
   for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) {
     const std::string name = names[i].empty() ? "unnamed" : printable(names[i].substr(0, kLength));
     text.append(i == 0 ? "" : ", ").append(std::to_string(i)).append(" (").append(name).append(")");

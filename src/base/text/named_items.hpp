@@ -14,8 +14,8 @@ namespace microtrace {
 [[nodiscard]] std::optional<std::size_t> find_item(std::string_view wanted,
                                                    std::span<const std::string> names);
 
-/// Returns the message that no item is selected: `there is no camera "left"; the scene has 0
-/// (front), 1 (unnamed)`. `kind` is the noun for an item.
+/// Returns the message that no item is selected: `there is no camera "left"; choose 0 (front), 1
+/// (unnamed)`. `kind` is the noun for an item.
 [[nodiscard]] std::string no_such_item(std::string_view kind, std::string_view wanted,
                                        std::span<const std::string> names);
 

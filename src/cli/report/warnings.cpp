@@ -21,15 +21,24 @@ std::string camera_name(const Arguments& arguments, const Scene& scene) {
   return index ? "the camera " + scene.cameras[*index].name : "the camera";
 }
 
-/// What to do if nothing is visible. A camera that frames the whole scene sees only the backs of
-/// one-sided surfaces, whose fronts the opposite camera sees.
+bool has_object(const Scene& scene, const auto& predicate) {
+  for (const ObjectRun& run : scene.objects.runs())
+    if (predicate(*run.first)) return true;
+  return false;
+}
+
+/// What to do if nothing is visible. Of a scene with one-sided surfaces, a camera that frames the
+/// whole scene may see only their backs, whose fronts the opposite camera sees.
 std::string remedy_for_emptiness(const CameraOptions& options, const Scene& scene) {
-  if (options.is_of_scene() && scene.cameras.empty())
-    return "its surfaces may be one-sided and face away; look from the opposite side with --view "
-           "210,-25";
-  if (options.orbit && !options.orbit->distance)
-    return "its surfaces may be one-sided and face away; look from another side with --view";
-  return "choose another one with --camera, or frame the whole scene with --view 30,25";
+  const bool is_default = options.is_of_scene() && scene.cameras.empty();
+  const bool is_framed = is_default || (options.orbit && !options.orbit->distance);
+  if (!is_framed)
+    return "choose another one with --camera, or frame the whole scene with --view 30,25";
+  if (!has_object(scene, [&](const Object& o) { return !material_of(scene, o).double_sided; }))
+    return "its objects may be empty, transparent or smaller than a pixel; `microtrace explain` "
+           "tells why rays miss them";
+  return std::string("its surfaces may be one-sided and face away; look from ")
+      .append(is_default ? "the opposite side with --view 210,-25" : "another side with --view");
 }
 
 bool is_dark(const Light& light) {
@@ -42,9 +51,12 @@ bool is_dark(const Environment& environment) {
 }
 
 bool has_emissive_surfaces(const Scene& scene) {
-  for (const ObjectRun& run : scene.objects.runs())
-    if (is_emissive(material_of(scene, *run.first))) return true;
-  return false;
+  return has_object(scene, [&](const Object& o) { return is_emissive(material_of(scene, o)); });
+}
+
+/// Returns true if light comes from all directions.
+bool is_surrounded_by_light(const Scene& scene) {
+  return scene.environment ? !is_dark(*scene.environment) : scene.lights.empty();
 }
 
 /// Returns the exposure in stops that raises this value to at least 1/2.
@@ -93,12 +105,8 @@ void Warnings::report_picture(const std::optional<Diagnostic>& warning) {
   if (warning && !std::exchange(has_reported_picture_, true)) print(*warning);
 }
 
-bool is_lit_by_studio(const Scene& scene) {
-  return !scene.environment && scene.lights.empty();
-}
-
 std::string lights_text(const Scene& scene) {
-  if (is_lit_by_studio(scene)) return "the built-in studio";
+  if (!scene.environment && scene.lights.empty()) return "the built-in studio";
   const std::size_t lights = scene.lights.size();
   const auto dark = static_cast<std::size_t>(std::ranges::count_if(
       scene.lights, [](const NamedLight& light) { return is_dark(light.light); }));
@@ -130,8 +138,8 @@ std::optional<Diagnostic> picture_warning(const FilmView& view, const Arguments&
   std::string message = "most of the visible scene is black; it is lit by " + lights_text(scene);
   if (!scene.environment && !scene.lights.empty())
     message += " (the studio lights only scenes without lights)";
-  message += is_lit_by_studio(scene)
-                 ? "; add light with --env FILE, or --env 1,1,1 for white light from everywhere"
+  message += is_surrounded_by_light(scene)
+                 ? "; the camera may be inside a closed object; look from outside with --view 30,25"
                  : "; add light with --env studio";
   if (view.brightest > 0)
     message +=

@@ -1,6 +1,7 @@
 #include "io/scene_json/scene.hpp"
 
 #include "base/memory_account.hpp"
+#include "base/text/printable.hpp"
 #include "io/confined_reads.hpp"
 #include "io/json/reader.hpp"
 #include "io/scene_json/camera.hpp"
@@ -13,9 +14,11 @@
 #include "io/scene_json/shape.hpp"
 #include "scene/mesh/merge.hpp"
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <map>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 
@@ -138,6 +141,24 @@ void add_mesh(const JsonReader& json, const std::string& name,
   std::move(mesh.warnings.begin(), mesh.warnings.end(), std::back_inserter(out.warnings));
 }
 
+/// Throws Error if two objects have the same name. `firsts` has the index of each item's first
+/// object.
+void require_distinct_names(const std::vector<JsonReader>& items,
+                            const std::vector<std::size_t>& firsts, const Objects& objects) {
+  const auto item_of = [&](std::size_t object) -> const JsonReader& {
+    const auto next = std::ranges::upper_bound(firsts, object);
+    return items[static_cast<std::size_t>(next - firsts.begin()) - 1];
+  };
+  std::unordered_map<std::string, std::size_t> known;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto [earlier, is_new] = known.emplace(objects[i].name.str(), i);
+    if (is_new) continue;
+    std::string message = "the name of its object ";
+    message.append(in_quotes(earlier->first)).append(" is already used by ");
+    item_of(i).fail(message.append(item_of(earlier->second).pointer()) + "; names must differ");
+  }
+}
+
 void read_objects(const JsonReader& json, Palette& palette, const std::filesystem::path& folder,
                   const LoadOptions& options, LoadedScene& out) {
   Names names;
@@ -147,8 +168,12 @@ void read_objects(const JsonReader& json, Palette& palette, const std::filesyste
     const bool is_object = item.value().kind() == JsonValue::Kind::object;
     if (is_object && is_mesh(item)) files.expect(item);
   }
+  bool has_meshes = false;
+  std::vector<std::size_t> firsts;
   for (const JsonReader& item : items) {
+    firsts.push_back(out.scene.objects.size());
     if (is_mesh(item)) {
+      has_meshes = true;
       const std::string name = names.read(item);
       add_mesh(item, name, palette.read(item), files, out);
       continue;
@@ -159,6 +184,7 @@ void read_objects(const JsonReader& json, Palette& palette, const std::filesyste
     object.material = palette.read(item);
     out.scene.objects.push_back(std::move(object));
   }
+  if (has_meshes) require_distinct_names(items, firsts, out.scene.objects);
 }
 
 }  // namespace

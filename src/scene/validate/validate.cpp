@@ -152,7 +152,10 @@ Rule check(const Pose& pose) {
   const double sine =
       glm::length(glm::cross(glm::normalize(pose.direction), glm::normalize(pose.up)));
   if (sine > kLeastSine) return {};
-  return broken("up", "must not be parallel to direction");
+  const bool is_along_y = std::abs(pose.up.y) > std::abs(pose.up.z);
+  return broken("up",
+                std::string("must not be parallel to the viewing direction; use, for example, ")
+                    .append(is_along_y ? "0,0,1" : "0,1,0"));
 }
 
 Rule check(const std::optional<double>& aspect_ratio) {
@@ -183,9 +186,8 @@ Rule check_lens(const PerspectiveCamera& camera) {
 Rule check(const PerspectiveCamera& camera) {
   if (Rule rule = check(camera.pose)) return rule;
   if (!(camera.vertical_fov > 0 && camera.vertical_fov < std::numbers::pi)) {
-    const double degrees = camera.vertical_fov * (180 / std::numbers::pi);
-    return broken("vertical_fov",
-                  std::string("must lie between 0 and 180 degrees, is ").append(decimal(degrees)));
+    return broken("vertical_fov", std::string("must lie between 0 and pi, in radians, is ")
+                                      .append(decimal(camera.vertical_fov)));
   }
   return first(positive("focus", camera.focus), check_lens(camera), check(camera.aspect_ratio),
                check(camera.depth));

@@ -50,6 +50,25 @@ std::string found(std::string_view text, std::size_t offset) {
   return in_quotes(word_at(text, offset));
 }
 
+/// Returns the ASCII character of which the first character is the full-width form, which Chinese
+/// and Japanese keyboards type; 0 if it is none.
+char narrow_form(std::string_view text) {
+  // U+FF01 to U+FF5E are the forms of ! to ~.
+  if (text.empty() || character_length(text) != 3 || text[0] != '\xEF') return 0;
+  const unsigned second = static_cast<unsigned char>(text[1]) & 0x3FU;
+  const unsigned code = second << 6U | (static_cast<unsigned char>(text[2]) & 0x3FU);
+  return code >= 0xF01 && code <= 0xF5E ? static_cast<char>(code - 0xF01 + '!') : '\0';
+}
+
+std::string unexpected(std::string_view text, const SyntaxContext& context) {
+  std::string message = "expected ";
+  message.append(expected(context)).append(", found ").append(found(text, context.token));
+  const std::string_view rest = text.substr(std::min(context.token, text.size()));
+  if (const char narrow = narrow_form(rest); narrow != 0)
+    message.append("; JSON needs the ASCII character ") += narrow;
+  return message;
+}
+
 SyntaxError explain_string(const SyntaxContext& context, std::string_view text,
                            std::string_view reason) {
   const std::size_t last = context.read - 1;  // the byte that the lexer rejected
@@ -90,10 +109,16 @@ bool is_utf16(std::string_view text) {
 
 SyntaxError explain_literal(std::string_view text, const SyntaxContext& context) {
   const std::string_view rest = text.substr(context.token);
-  if (rest.starts_with("\xFF\xFE") || rest.starts_with("\xFE\xFF") || rest.starts_with("\xEF")) {
+  if (rest.starts_with("\xFF\xFE") || rest.starts_with("\xFE\xFF") ||
+      (rest[0] == '\xEF' && character_length(rest) == 0)) {
     return {context.token, "is not UTF-8 here; save the file as UTF-8"};
   }
-  if (rest[0] == '/' || rest[0] == '#') return {context.token, "comments are not JSON; remove it"};
+  if (rest.starts_with("\xEF\xBB\xBF")) {
+    return {context.token, "a byte order mark is allowed only at the start; remove it"};
+  }
+  if (rest.starts_with("//") || rest.starts_with("/*") || rest[0] == '#') {
+    return {context.token, "comments are not JSON; remove it"};
+  }
   if (rest[0] == '\'') return {context.token, "JSON strings need double quotes"};
   const std::string_view word = word_at(text, context.token);
   const std::string_view bare = word.substr(word[0] == '-' || word[0] == '+' ? 1 : 0);
@@ -103,8 +128,7 @@ SyntaxError explain_literal(std::string_view text, const SyntaxContext& context)
   if (context.expects == Expects::key || context.expects == Expects::key_or_end) {
     return explain_misplaced(text, context);
   }
-  std::string message = "expected ";
-  message.append(expected(context)).append(", found ").append(found(text, context.token));
+  std::string message = unexpected(text, context);
   if (const std::string_view meant = meant_by(word); !meant.empty())
     message.append("; JSON has ").append(meant);
   if (word[0] == '+') message += "; JSON numbers have no plus sign";
@@ -128,8 +152,7 @@ SyntaxError explain_misplaced(std::string_view text, const SyntaxContext& contex
       return {context.token, "is UTF-16, not UTF-8; save the file as UTF-8"};
     return {context.token, "a zero byte is outside of strings; this is not a JSON text"};
   }
-  std::string message = "expected ";
-  message.append(expected(context)).append(", found ").append(found(text, context.token));
+  std::string message = unexpected(text, context);
   const bool ends_value =
       context.expects == Expects::comma_or_end || context.expects == Expects::end_of_document;
   if (ends_value && c >= '0' && c <= '9' && text[context.token - 1] == '0')
