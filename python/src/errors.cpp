@@ -1,3 +1,4 @@
+#include "base/system/free_memory.hpp"
 #include "common.hpp"
 
 #include <exception>
@@ -57,7 +58,7 @@ void bind_errors(nb::module_& /*module*/) {
       set_exception(error.kind(), error.diagnostic());
     } catch (const std::bad_alloc&) {
       Diagnostic diagnostic;
-      diagnostic.message = "out of memory";
+      diagnostic.message = out_of_memory();
       set_exception(ErrorKind::limit, diagnostic);
     }
   });

@@ -1,3 +1,4 @@
+#include "base/system/free_memory.hpp"
 #include "capi/handles.hpp"
 
 #include <microtrace/version.h>
@@ -29,7 +30,7 @@ mt_status failed() noexcept {
     keep(error.what());
     return static_cast<mt_status>(error.kind());
   } catch (const std::bad_alloc&) {
-    keep("out of memory");
+    keep(out_of_memory());
     return MT_LIMIT;
   } catch (const std::length_error&) {
     keep("a count exceeds the memory");

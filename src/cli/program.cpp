@@ -1,6 +1,7 @@
 #include "cli/program.hpp"
 
 #include "base/system/float_environment.hpp"
+#include "base/system/free_memory.hpp"
 #include "base/system/start_threads.hpp"
 #include "base/text/printable.hpp"
 #include "cli/arguments.hpp"
@@ -50,7 +51,7 @@ int exit_code_of(const Work& work) {
     print_error(error.what());
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {
-    print_error("out of memory");
+    print_error(out_of_memory());
     return static_cast<int>(ErrorKind::limit);
   } catch (const std::exception& error) {
     print_error(printable(error.what()).c_str());

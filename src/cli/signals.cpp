@@ -1,6 +1,7 @@
 #include "cli/signals.hpp"
 
 #include "base/system/start_threads.hpp"
+#include "cli/options/option_value.hpp"
 #include "cli/report/progress_bar.hpp"
 
 #include <microtrace/error.hpp>
@@ -128,6 +129,10 @@ int DelayedSignals::received() {
 
 void end_with_parent(std::uint32_t parent) {
   static constexpr useconds_t kInterval = 100'000;
+  if (::getppid() == 0)
+    refuse_usage(
+        "--end-with-parent: the parent is in another PID namespace, so its end can't be noticed; "
+        "leave this option out");
   const pid_t first = parent != 0 ? static_cast<pid_t>(parent) : ::getppid();
   const auto is_orphan = [first] { return ::getppid() != first; };
   if (is_orphan()) end_at_once(SIGTERM);

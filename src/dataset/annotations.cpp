@@ -2,8 +2,8 @@
 #include "dataset/annotations/bop_models.hpp"
 #include "dataset/annotations/coco.hpp"
 #include "dataset/annotations/masks.hpp"
-#include "io/atomic_file.hpp"
 #include "io/file.hpp"
+#include "io/output/atomic_file.hpp"
 
 #include <microtrace/annotations.hpp>
 

@@ -4,8 +4,8 @@
 #include "dataset/links.hpp"
 #include "dataset/manifest_reader.hpp"
 #include "dataset/measure.hpp"
-#include "io/atomic_file.hpp"
 #include "io/file.hpp"
+#include "io/output/atomic_file.hpp"
 
 #include <microtrace/dataset.hpp>
 

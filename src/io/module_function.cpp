@@ -6,8 +6,10 @@
 
 #include <microtrace/error.hpp>
 
+#include <cerrno>
 #include <dlfcn.h>
 #include <sys/resource.h>
+#include <sys/statvfs.h>
 #include <system_error>
 
 namespace microtrace::io {
@@ -27,6 +29,15 @@ bool lacks_memory(const std::string& complaint) {
          complaint.find("annot allocate memory") != complaint.npos;
 }
 
+/// Explains why the dynamic linker can't load a module.
+std::string explained(const std::string& complaint, const std::filesystem::path& path) {
+  struct statvfs system {};
+  const bool is_noexec = complaint.find("failed to map segment") != complaint.npos &&
+                         ::statvfs(path.c_str(), &system) == 0 && (system.f_flag & ST_NOEXEC) != 0;
+  return is_noexec ? "it is on a file system without permission to execute files (noexec)"
+                   : complaint;
+}
+
 }  // namespace
 
 Module open_module(const char* file) {
@@ -41,12 +52,14 @@ Module open_module(const char* file) {
     result.complaint = damage_of_elf_file(path);
     if (!result.complaint.empty()) break;
     result.handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (result.handle == nullptr) result.complaint = last_complaint(path.string());
-    if (lacks_memory(result.complaint)) {
-      throw Error(
-          ErrorKind::limit, path.string(),
-          "can't be loaded: " + result.complaint + "; raise the limit of memory (ulimit -v)");
-    }
+    if (result.handle == nullptr) result.complaint = explained(last_complaint(path.string()), path);
+    const auto fail = [&](ErrorKind kind, const char* remedy, int number) {
+      throw Error(kind, path.string(), "can't be loaded: " + result.complaint + remedy, number);
+    };
+    if (lacks_memory(result.complaint))
+      fail(ErrorKind::limit, "; raise the limit of memory (ulimit -v)", ENOMEM);
+    if (result.complaint.find("Too many open files") != result.complaint.npos)
+      fail(ErrorKind::io, "; close some, or raise the limit of open files (ulimit -n)", EMFILE);
     break;
   }
   return result;

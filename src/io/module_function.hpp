@@ -14,7 +14,8 @@ struct Module {
 };
 
 /// Loads the module with this file name from the first folder of module_folders() that contains it.
-/// Throws Error (limit) if there is too little memory for it.
+/// Throws Error (limit) if there is too little memory for it, and Error (io) if too many files are
+/// open.
 [[nodiscard]] Module open_module(const char* file);
 
 struct ModuleFunction {
@@ -22,7 +23,7 @@ struct ModuleFunction {
   std::string complaint{};  ///< states the module and the searched folders if there is no function
 };
 
-/// Opens the module and looks up the function. Throws Error (limit) as open_module() does.
+/// Opens the module and looks up the function. Throws Error as open_module() does.
 [[nodiscard]] ModuleFunction find_module_function(const char* file, const char* function);
 
 }  // namespace microtrace::io

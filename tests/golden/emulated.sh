@@ -59,7 +59,7 @@ set(CMAKE_MODULE_LINKER_FLAGS_INIT "-Wl,-rpath-link,$libraries:$sysroot/lib/$tri
 END
 cmake -S "$source" -B "$folder/build" -G Ninja --toolchain "$folder/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
   -DMICROTRACE_BUILD_TESTS=OFF -DMICROTRACE_BUILD_BENCHMARKS=OFF -DMICROTRACE_WITH_OPENIMAGEIO=OFF -DMICROTRACE_WITH_DRACO=OFF \
-  -DMICROTRACE_WITH_HTTP=OFF -DMICROTRACE_WITH_MANUAL=OFF $([[ ${#modules[@]} -gt 0 ]] ||
+  -DMICROTRACE_WITH_HTTP=OFF -DMICROTRACE_WITH_MANUAL=OFF -DTinyGLTF_DIR="$sysroot/usr/lib/aarch64-linux-gnu/cmake/TinyGLTF" $([[ ${#modules[@]} -gt 0 ]] ||
   echo -DMICROTRACE_WITH_OPENEXR=OFF -DMICROTRACE_WITH_CODECS=OFF) > "$folder/configure.log"
 cmake --build "$folder/build" --target microtrace "${modules[@]}"
 

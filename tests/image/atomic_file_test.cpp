@@ -1,4 +1,4 @@
-#include "io/atomic_file.hpp"
+#include "io/output/atomic_file.hpp"
 
 #include "folder.hpp"
 

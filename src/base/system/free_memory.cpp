@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace microtrace {
@@ -67,6 +68,27 @@ std::uint64_t left_in_all_groups(const fs::path& root) {
   return least;
 }
 
+bool has_limit(decltype(RLIMIT_AS) resource, rlim_t& limit) {
+  rlimit limits{};
+  const bool is_known = ::getrlimit(resource, &limits) == 0;
+  limit = limits.rlim_cur;
+  return is_known && limit != RLIM_INFINITY;
+}
+
+/// Returns the memory left within the limits of the process.
+std::uint64_t left_in_process(const fs::path& root) {
+  // The numbers of pages of the address space, and of data and stacks.
+  std::uint64_t whole = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
+  std::ifstream(root / "proc/self/statm") >> whole >> resident >> shared >> text >> library >> data;
+  const auto page = static_cast<std::uint64_t>(std::max(::sysconf(_SC_PAGESIZE), 0L));
+  std::uint64_t least = kUnlimited;
+  rlim_t limit = 0;
+  if (has_limit(RLIMIT_AS, limit)) least = limit - std::min<rlim_t>(limit, whole * page);
+  if (has_limit(RLIMIT_DATA, limit))
+    least = std::min<std::uint64_t>(least, limit - std::min<rlim_t>(limit, data * page));
+  return least;
+}
+
 }  // namespace
 
 std::uint64_t free_memory(const fs::path& root) {
@@ -77,7 +99,14 @@ std::uint64_t free_memory(const fs::path& root) {
     available = static_cast<std::uint64_t>(std::max(::sysconf(_SC_PHYS_PAGES), 0L)) *
                 static_cast<std::uint64_t>(std::max(::sysconf(_SC_PAGESIZE), 0L));
   }
-  return std::min(available, left_in_all_groups(root));
+  return std::min({available, left_in_all_groups(root), left_in_process(root)});
+}
+
+const char* out_of_memory() {
+  rlim_t limit = 0;
+  if (has_limit(RLIMIT_AS, limit)) return "out of memory; raise the limit of memory (ulimit -v)";
+  if (has_limit(RLIMIT_DATA, limit)) return "out of memory; raise the limit of data (ulimit -d)";
+  return "out of memory";
 }
 
 std::uint64_t default_memory_limit() {

@@ -14,7 +14,6 @@
 #include <microtrace/render.hpp>
 
 #include <algorithm>
-#include <fcntl.h>
 #include <span>
 #include <string>
 #include <string_view>
@@ -150,7 +149,7 @@ void ViewRenderer::check_look(const DatasetView& view, std::uint32_t index) cons
       parse_environment({.option = place + ": the environment", .text = *view.environment});
   // Not opened, because that would end a pipe.
   const auto* path = std::get_if<fs::path>(&source);
-  if (path != nullptr && ::faccessat(AT_FDCWD, path->c_str(), R_OK, AT_EACCESS) != 0)
+  if (path != nullptr && ::access(path->c_str(), R_OK) != 0)
     throw Error(ErrorKind::io, place, printable(path->string()) + " can't be opened");
 }
 

@@ -1,6 +1,6 @@
 #include "cli/pictures/output_paths.hpp"
 
-#include "io/atomic_file.hpp"
+#include "io/output/output_target.hpp"
 
 #include <microtrace/error.hpp>
 

@@ -1,6 +1,6 @@
 #include "cli/report/standard_output.hpp"
 
-#include "io/atomic_file.hpp"
+#include "io/output/atomic_file.hpp"
 
 namespace microtrace::cli {
 

@@ -1,6 +1,7 @@
 #include "cli/view/live_picture.hpp"
 
 #include "base/system/float_environment.hpp"
+#include "base/system/free_memory.hpp"
 #include "base/system/start_threads.hpp"
 #include "base/text/printable.hpp"
 #include "cli/view/picture_json.hpp"
@@ -140,7 +141,7 @@ void LivePicture::work() {
       is_drawn = error.kind() != ErrorKind::canceled;
       if (is_drawn) publish_error(error.what(), request);
     } catch (const std::bad_alloc&) {
-      publish_error("out of memory", request);
+      publish_error(out_of_memory(), request);
     } catch (const std::exception& error) {
       publish_error(printable(error.what()), request);
     }

@@ -1,5 +1,6 @@
 #include "cli/view/view.hpp"
 
+#include "base/system/start_threads.hpp"
 #include "base/text/printable.hpp"
 #include "cli/report/standard_output.hpp"
 #include "cli/signals.hpp"
@@ -20,6 +21,11 @@ void view_scene(const Arguments& arguments) {
     refuse_usage("SCENE: standard input can't be read again; name a file");
   if (arguments.view.other_scene == "-")
     refuse_usage("--compare: standard input can't be read again; name a file");
+  if (!can_start_threads(2)) {
+    throw Error(ErrorKind::limit, "view",
+                "needs threads, which the system refuses to start; raise the limit on processes "
+                "(ulimit -u)");
+  }
   ViewServer server(arguments);
   server.load();
   const DelayedSignals delay;  // from the moment at which the address is known

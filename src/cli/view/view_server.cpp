@@ -1,5 +1,6 @@
 #include "cli/view/view_server.hpp"
 
+#include "base/system/free_memory.hpp"
 #include "base/text/printable.hpp"
 #include "cli/options/option_value.hpp"
 #include "cli/view/page.hpp"
@@ -66,7 +67,7 @@ io::HttpResponse response_of(const Work& work) {
   } catch (const Error& error) {
     return json_response(error_json(error.what()), status_of(error.kind()));
   } catch (const std::bad_alloc&) {
-    return json_response(error_json("out of memory"), 500);
+    return json_response(error_json(out_of_memory()), 500);
   } catch (const std::exception& error) {
     return json_response(error_json(printable(error.what())), 500);
   }

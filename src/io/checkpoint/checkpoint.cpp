@@ -1,9 +1,10 @@
 #include "base/little_endian.hpp"
 #include "base/memory_account.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint/bytes.hpp"
 #include "io/checkpoint/pixel_blocks.hpp"
 #include "io/file.hpp"
+#include "io/output/atomic_file.hpp"
+#include "io/output/output_target.hpp"
 #include "scene/validate/validate.hpp"
 
 #include <microtrace/checkpoint.hpp>

@@ -1,9 +1,10 @@
 #include "base/system/float_environment.hpp"
-#include "io/atomic_file.hpp"
 #include "io/file_name.hpp"
 #include "io/image/encode/png.hpp"
 #include "io/image/encode/ppm.hpp"
 #include "io/image/module.hpp"
+#include "io/output/atomic_file.hpp"
+#include "io/output/output_target.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>

@@ -1,4 +1,4 @@
-#include "io/file_access.hpp"
+#include "io/output/file_access.hpp"
 
 #include <sys/xattr.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "io/unfinished_files.hpp"
+#include "io/output/unfinished_files.hpp"
 
 #include <microtrace/io.hpp>
 

@@ -13,9 +13,11 @@ namespace microtrace::io {
 /// An output file that is being written. It is a temporary file in the target's folder until
 /// commit() renames it. The destructor removes an uncommitted file. If the target is a symbolic
 /// link, the file that it leads to is replaced. The new file gets the access rights of the old one
-/// (see copy_access). Devices, pipes, "-" and the names of open descriptors (/dev/stdout,
-/// /dev/fd/N) can't be replaced and are written directly. All members except the destructor throw
-/// Error(io) with the path and the system's reason.
+/// (see copy_access). A file that is itself a mount point, as in containers, can't be replaced:
+/// commit() overwrites its content, so it may be damaged if that is interrupted. Devices, pipes,
+/// "-" and the names of open descriptors (/dev/stdout, /dev/fd/N) can't be replaced and are written
+/// directly. All members except the destructor throw Error(io) with the path and the system's
+/// reason.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -46,25 +48,16 @@ class AtomicFile {
 
  private:
   void open_temporary();
+  void overwrite();
   void discard() noexcept;
   [[noreturn]] void fail(int error, std::string_view remedy);
 
   std::filesystem::path named_;      ///< path as given by the caller, for messages
   std::filesystem::path target_;     ///< path after following a final symbolic link
   std::filesystem::path temporary_;  ///< empty if the target is written directly, or after renaming
+  bool is_mounted_ = false;  ///< the target is a mount point, and the descriptor a file in memory
   int descriptor_ = -1;
   int slot_ = -1;  ///< slot in the list of unfinished files; -1 if not listed
 };
-
-/// Follows symbolic links in the last component of the path, as AtomicFile does. The file at the
-/// end of the links need not exist.
-[[nodiscard]] std::filesystem::path follow_links(std::filesystem::path path);
-
-/// Throws Error(io) if creating an AtomicFile for this target would fail now. Has no side effects.
-void check_target(const std::filesystem::path& target);
-
-/// Returns true if the target is written directly, because it is an open descriptor or an existing
-/// file that is not regular.
-[[nodiscard]] bool is_stream(const std::filesystem::path& target);
 
 }  // namespace microtrace::io
