@@ -52,6 +52,7 @@ install(FILES ${PROJECT_BINARY_DIR}/microtraceConfig.cmake
   DESTINATION ${microtrace_package_dir})
 
 # For other build systems. The C++ headers also need GLM, which has no libraries.
+file(RELATIVE_PATH microtrace_prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH microtrace_includes_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 configure_file(cmake/microtrace.pc.in ${PROJECT_BINARY_DIR}/microtrace.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/microtrace.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -108,6 +108,16 @@ class Containers(ProgramTest):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual((self.folder / "out.ppm").read_bytes(), expected, (call, error))
 
+    @unittest.skipUnless(os.uname().machine == "x86_64", "the numbers are those of x86-64")
+    def test_file_systems_without_hard_links(self):
+        """Of runs that start different data sets in one folder, only one succeeds."""
+        link = 86
+        for number in range(8):
+            runs = [subprocess.Popen([PROGRAM, "dataset", CUBE, "--views", "orbit:1", "--size", "8x6", "--integrator", "depth",
+                                      "-o", f"set{number}", "-q", "--seed", str(seed)], cwd=self.folder, env=environment(),
+                                     stderr=subprocess.DEVNULL, preexec_fn=lambda: refuse_call(link, 1)) for seed in range(4)]
+            self.assertEqual(sorted(run.wait() for run in runs), [0, 2, 2, 2])
+
     @unittest.skipUnless(CAN_MOUNT, "namespaces are not permitted")
     def test_parents_in_another_namespace(self):
         result = subprocess.run(["unshare", "-pf", "--mount-proc", PROGRAM, str(CUBE), *SMALL, "-o", "out.ppm", "--end-with-parent"],

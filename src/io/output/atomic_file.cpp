@@ -11,6 +11,7 @@
 #include <microtrace/read_files.hpp>
 
 #include <cerrno>
+#include <cstdio>
 #include <fcntl.h>
 #include <optional>
 #include <poll.h>
@@ -153,6 +154,12 @@ bool AtomicFile::commit_new() {
   }
   if (temporary_.empty()) return true;
   if (::link(temporary_.c_str(), target_.c_str()) == 0) {
+    discard();
+    return true;
+  }
+  if (errno != EEXIST &&
+      ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) {
+    temporary_.clear();
     discard();
     return true;
   }

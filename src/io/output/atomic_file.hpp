@@ -38,7 +38,8 @@ class AtomicFile {
   void commit();
 
   /// Does the same unless the target exists. Returns false if it does. If several processes commit
-  /// the same new target, only one of them gets true, except on file systems without hard links.
+  /// the same new target, only one of them gets true, except on file systems without hard links and
+  /// renameat2().
   [[nodiscard]] bool commit_new();
 
   /// Does the same if the target is a file in this state, or doesn't exist. Returns false if it was
