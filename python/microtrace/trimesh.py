@@ -161,8 +161,9 @@ class RayMeshIntersector:
         is_new = np.ones(len(t), bool)
         is_tie = place[1:] == place[:-1]
         at = np.nonzero(np.append(is_tie, False) | np.insert(is_tie, 0, False))[0]
-        corners = self._vertices[np.asarray(self.mesh.faces)[tri[at]]]
-        is_new[at] = _counts_at_point(place[at], facing[counts][at], corners, rays[ray[at]])
+        if len(at) > 0:
+            corners = self._vertices[np.asarray(self.mesh.faces)[tri[at]]]
+            is_new[at] = _counts_at_point(place[at], facing[counts][at], corners, rays[ray[at]])
         return t[is_new], tri[is_new], ray[is_new]
 
     def _nearest(self, rays: Array) -> tuple[Array, Array, Array]:
@@ -234,7 +235,7 @@ def _counts_at_point(group: Array, facing: Array, corners: Array, rays: Array) -
         rays: (n, 6).
     """
     turns = _turns(corners, rays)
-    starts = np.insert(np.diff(group) != 0, 0, True)[: len(group)]
+    starts = np.insert(np.diff(group) != 0, 0, True)
     of = np.cumsum(starts) - 1
     is_part = turns < 1
     parts = np.where(is_part, turns, 0)
