@@ -120,11 +120,13 @@ class Array {
   /// shared first, as edit() does.
   void push_back(T value) { edit().push_back(value); }
   template <class... Arguments>
-  void emplace_back(Arguments&&... arguments) {
+  T& emplace_back(Arguments&&... arguments) {
     push_back(T(std::forward<Arguments>(arguments)...));
+    return edit().back();
   }
   void reserve(std::size_t size) { edit().reserve(size); }
   void resize(std::size_t size) { edit().resize(size); }
+  void resize(std::size_t size, const T& value) { edit().resize(size, value); }
   void assign(std::size_t size, const T& value) { *this = std::vector<T>(size, value); }
   void clear() noexcept { *this = Array(); }
 

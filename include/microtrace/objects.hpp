@@ -39,7 +39,8 @@ struct ObjectRun {
 
 /// Reads and changes like a std::vector<Object>. Runs of instances are stored as one object and the
 /// placements of all. Their objects are made when they are first read one by one: use runs() to
-/// read scenes that may have many instances. Any number of threads may read.
+/// read scenes that may have many instances. Any number of threads may read a const object. Access
+/// to one that isn't const, also by begin() or an index, is a change: it calls edit().
 class MICROTRACE_EXPORT Objects {
  public:
   using value_type = Object;
@@ -81,11 +82,14 @@ class MICROTRACE_EXPORT Objects {
   [[nodiscard]] iterator end() { return edit().end(); }
   template <class... Arguments>
   iterator insert(const_iterator at, Arguments&&... arguments) {
-    return edit().insert(at, std::forward<Arguments>(arguments)...);
+    const const_iterator place = editable(at);
+    return edit().insert(place, std::forward<Arguments>(arguments)...);
   }
-  template <class... Arguments>
-  iterator erase(Arguments... range) {
-    return edit().erase(range...);
+  iterator erase(const_iterator at) { return erase(at, at + 1); }
+  iterator erase(const_iterator first, const_iterator last) {
+    const std::ptrdiff_t count = last - first;
+    const const_iterator begin = editable(first);  // ends the life of `last`
+    return edit().erase(begin, begin + count);
   }
   void resize(std::size_t size, const Object& value) { edit().resize(size, value); }
   void pop_back() { edit().pop_back(); }
@@ -95,6 +99,7 @@ class MICROTRACE_EXPORT Objects {
   void push_back(Object object);
   /// Appends a run of instances. `object` is a mesh without a placement and without segments. The
   /// instances have these placements and the names object.name.with_number(0), (1), (2) and so on.
+  /// Throws Error (usage) for other shapes.
   void push_back_run(Object object, std::vector<Placement> placements);
   /// Appends objects, and keeps their runs.
   void append(Objects&& more);
@@ -160,6 +165,11 @@ class MICROTRACE_EXPORT Objects {
   };
   struct Made;
 
+  /// Returns the place in edit() of an iterator of all().
+  [[nodiscard]] const_iterator editable(const_iterator at) {
+    const std::ptrdiff_t i = at - all().begin();
+    return edit().cbegin() + i;
+  }
   void add_spans();
   void forget_made();
   [[nodiscard]] const std::vector<Object>& made_all() const;

@@ -120,7 +120,8 @@ struct RenderOptions {
 /// Scene::cameras. The picture does not depend on threads, progress or times. Several threads may
 /// render one scene at the same time.
 ///
-/// Throws Error: usage for invalid samples, passes, crop or AOVs, for several samples per pixel if
+/// Throws Error: invalid_scene for an invalid camera or environment (see validate.hpp); usage for
+/// an empty picture, invalid samples, passes, crop or AOVs, for several samples per pixel if
 /// Integrator::is_data(), for an invalid shutter, or for passes or a shutter with an integrator
 /// that is not a Monte Carlo integrator; limit if memory runs out; canceled if options.progress
 /// returns false.

@@ -2,6 +2,7 @@
 /// Short lists for members of which a scene may have millions.
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <new>
 #include <stdexcept>
@@ -95,6 +96,7 @@ class ShortVector {
   template <class Value>
   ShortVector(std::size_t size, const Value& value) : ShortVector() {
     if (size == 0) return;
+    if (size > (PTRDIFF_MAX - sizeof(List)) / sizeof(T)) throw std::length_error("ShortVector");
     list_ = ::new (::operator new(sizeof(List) + size * sizeof(T))) List;
     for (; list_->size < size; ++list_->size)
       ::new (static_cast<void*>(end())) T(value(list_->size));

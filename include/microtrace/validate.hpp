@@ -14,12 +14,12 @@ namespace microtrace {
 ///   Images have as many samples as their size requires. Environment maps are not null.
 /// - The numbers in shapes, cameras, materials, lights and the environment are within their
 ///   documented ranges. The origin, the background and epsilon are finite, epsilon isn't negative,
-///   and each side of the size is 1 to 65536 pixels. The lengths of normals and tangents are not
-///   checked, because rounding changes them.
+///   and each side of the size is 1 to 65536 pixels (Error (limit) above). Of normals and tangents,
+///   only finiteness is checked, because rounding changes their lengths.
 ///
 /// PreparedScene and render() always check the first two rules, because their violation would cause
-/// undefined behavior. Without a check of the third rule, a shape with a number that is not finite
-/// is treated as empty.
+/// undefined behavior. render() also checks its camera and environment by the third. Without a
+/// check of the third rule, a shape with a number that is not finite is treated as empty.
 MICROTRACE_EXPORT void validate(const Scene& scene);
 
 }  // namespace microtrace

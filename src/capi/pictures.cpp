@@ -61,6 +61,10 @@ Camera camera_of(const mt_render_options& options, const Scene& scene, ImageSize
   camera.pose.position = vector(from.position) - scene.origin;
   camera.pose.direction = vector(from.target) - vector(from.position);
   camera.pose.up = vector(from.up);
+  if (!(from.vertical_fov > 0 && from.vertical_fov < 180)) {
+    refuse("the camera's vertical_fov must lie between 0 and 180 degrees, is " +
+           decimal(from.vertical_fov));
+  }
   camera.vertical_fov = from.vertical_fov * (std::numbers::pi / 180);
   check(validate(Camera(camera)), "the camera's");
   return camera;

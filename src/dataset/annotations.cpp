@@ -1,3 +1,4 @@
+#include "base/system/float_environment.hpp"
 #include "dataset/annotations/bop.hpp"
 #include "dataset/annotations/bop_models.hpp"
 #include "dataset/annotations/coco.hpp"
@@ -65,6 +66,7 @@ void require_bop_camera(const Camera& camera, const std::string& place) {
 
 Annotations annotate(const PreparedScene& scene, const AnnotatedPicture& picture,
                      const AnnotationFormats& formats, unsigned threads) {
+  const FloatEnvironment environment;
   const std::vector<std::uint32_t> objects = objects_of(picture);
   const dataset::DrawnView view = view_of(scene, picture, objects);
   const dataset::Masks visible = dataset::visible_masks(view);
@@ -108,6 +110,7 @@ void join_bop(std::span<const fs::path> parts, const fs::path& folder) {
 }
 
 std::vector<NamedFile> bop_models(const Scene& scene) {
+  const FloatEnvironment environment;
   const dataset::BopFrames frames(scene);
   std::vector<NamedFile> files;
   std::vector<dataset::BopModel> models;

@@ -1,3 +1,4 @@
+#include "base/system/float_environment.hpp"
 #include "dataset/npz_views.hpp"
 #include "io/file.hpp"
 #include "io/json/reader.hpp"
@@ -74,6 +75,7 @@ DatasetView read_view(const JsonReader& json, DatasetView view) {
 
 std::vector<DatasetView> read_views(const std::filesystem::path& path,
                                     const std::optional<ImageSize>& image) {
+  const FloatEnvironment environment;
   const std::string text = io::read_file(path, io::kMaxFileSize);
   if (dataset::is_npz(text)) return dataset::read_npz_views(text, path.string(), image);
   const io::JsonDocument document(text, path.string());

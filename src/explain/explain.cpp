@@ -206,7 +206,8 @@ Explanation explain_in_scene(const PreparedScene& scene, const Ray& ray,
 Explanation explain(const PreparedScene& scene, const Camera& camera, ImageSize size, double x,
                     double y, const ExplainOptions& options) {
   const FloatEnvironment environment;
-  if (!(x >= 0 && x <= size.width && y >= 0 && y <= size.height))
+  if (size.width == 0 || size.height == 0 ||
+      !(x >= 0 && x <= size.width && y >= 0 && y <= size.height))
     throw Error(ErrorKind::usage, "", "the point is outside of the picture");
   const SceneView view(content_for(content_of(scene), camera, size), camera, size);
   const Ray ray = CameraRays(view.camera, view.content->scene())(x, y);

@@ -10,6 +10,7 @@
 #include "render/samples/lit_view.hpp"
 #include "render/tile_painter.hpp"
 #include "scene/validate/check_indices.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <microtrace/denoise.hpp>
 #include <microtrace/error.hpp>
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <optional>
@@ -36,10 +38,17 @@ std::uint64_t numbers_of_pixel(const RenderOptions& options) {
   return 4 + kMostOfAov * (options.aovs.size() + options.sampled_aovs.size());
 }
 
+[[noreturn]] void refuse_size(ImageSize size) {
+  throw Error(ErrorKind::limit, "",
+              "no memory for a picture of " + std::to_string(size.width) + " x " +
+                  std::to_string(size.height) + " pixels; ask for a smaller one");
+}
+
 Film make_film(ImageSize whole, const PixelRect& window, Film::Alpha alpha, std::uint64_t numbers) {
   const ImageSize size = window.size();
-  take_memory(std::uint64_t{size.width} * size.height * numbers * sizeof(float),
-              "the pixels of the picture");
+  const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
+  if (pixels > PTRDIFF_MAX / (numbers * sizeof(float))) refuse_size(size);
+  take_memory(pixels * numbers * sizeof(float), "the pixels of the picture");
   try {
     Film film(size, alpha);
     film.whole = whole;
@@ -47,9 +56,7 @@ Film make_film(ImageSize whole, const PixelRect& window, Film::Alpha alpha, std:
     film.y0 = window.y0;
     return film;
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::limit, "",
-                "no memory for a picture of " + std::to_string(size.width) + " x " +
-                    std::to_string(size.height) + " pixels; ask for a smaller one");
+    refuse_size(size);
   }
 }
 
@@ -76,6 +83,15 @@ void check(const Shutter& shutter, const RenderOptions& options) {
   }
 }
 
+void check(const Camera& camera, ImageSize size) {
+  if (size.width == 0 || size.height == 0) refuse_options("the picture must have at least 1 pixel");
+  if (const auto broken = validate(camera))
+    throw Error(broken->kind, {.file = {},
+                               .pointer = "/camera/" + broken->field,
+                               .message = broken->message,
+                               .excerpt = {}});
+}
+
 void check(const RenderOptions& options) {
   if (options.samples < 1 || options.samples > kMaxSamples) {
     refuse_options("samples per pixel must be 1 to " + std::to_string(kMaxSamples) + ", not " +
@@ -89,11 +105,16 @@ void check(const RenderOptions& options) {
     const SampleRange range = options.passes->range.value_or(SampleRange{0, options.samples});
     if (options.passes->range && options.passes->target_error > 0)
       refuse_options("passes.range can't be combined with passes.target_error");
+    if (!(options.passes->target_error >= 0))
+      refuse_options("passes.target_error must not be negative");
+    if (std::isnan(options.passes->time_limit))
+      refuse_options("passes.time_limit must be a number");
     if (range.first >= range.last || range.last > options.samples)
       refuse_options("passes.range must be a nonempty range of the picture's samples, 0 to " +
                      std::to_string(options.samples));
   }
   if (options.shutter) check(*options.shutter, options);
+  if (options.environment) check_environment(*options.environment);
   const auto require_once = [&](auto aovs) {
     std::ranges::sort(aovs);
     if (const auto twice = std::ranges::adjacent_find(aovs); twice != aovs.end())
@@ -160,6 +181,7 @@ void draw_tiles(const SceneView& view, const Integrator& integrator, const Rende
 
 Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Camera& camera,
           ImageSize size, const RenderOptions& options) {
+  check(camera, size);
   check(options);
   const PixelRect window = window_of(size, options.crop);
   Threads threads{.wanted = thread_count(options.threads), .run = options.run_threads};

@@ -1,3 +1,4 @@
+#include <microtrace/error.hpp>
 #include <microtrace/objects.hpp>
 
 #include <algorithm>
@@ -68,6 +69,9 @@ void Objects::push_back(Object object) {
 }
 
 void Objects::push_back_run(Object object, std::vector<Placement> placements) {
+  const auto* mesh = std::get_if<Mesh>(&object.shape);
+  if (mesh == nullptr || !mesh->segments.empty())
+    throw Error(ErrorKind::usage, "", "push_back_run() needs a mesh without segments");
   if (placements.empty()) return;
   add_spans();
   spans_.push_back(

@@ -298,6 +298,10 @@ static void pictures(const mt_scene* scene, const char* folder) {
   const mt_camera blind = {{0, 0, 5}, {0, 0, 5}, {0, 1, 0}, 45};
   options.camera = &blind;
   CHECK(mt_render(scene, &options, &film) == MT_USAGE);
+  const mt_camera flat = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 180};
+  options.camera = &flat;
+  CHECK(mt_render(scene, &options, &film) == MT_USAGE);
+  CHECK(strstr(mt_last_error(), "between 0 and 180 degrees, is 180") != NULL);
   options.size = 0;
   CHECK(mt_render(scene, &options, &film) == MT_USAGE);
 }

@@ -1,6 +1,7 @@
 /// Tests the sampling of environments that light a room through a window.
 #include "render/lighting/sky_visibility.hpp"
 #include "render/prepared/content.hpp"
+#include "render/sampling/sobol.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/chi_square.hpp"
 #include "support/shading/light_samples.hpp"
@@ -195,6 +196,19 @@ TEST(Window, OnlyEnclosedScenesAreGuided) {
   EXPECT_FALSE(is_enclosed(scene)) << "light passes through the backs of walls";
   scene.objects.clear();
   EXPECT_FALSE(is_enclosed(scene));
+}
+
+// Most rays between particles hit one, but the visibility in cells that are wider than these
+// distances says little.
+TEST(Window, CloudsOfParticlesAreNotGuided) {
+  Scene cloud;
+  for (std::uint32_t i = 0; i < 8000; ++i) {
+    const sampling::Sobol place(1, i);
+    const Vec2 xy = place.pair(0), z = place.pair(1);
+    cloud.objects.push_back(
+        {.name = "particle", .shape = Sphere{{100 * xy.x, 100 * xy.y, 100 * z.x}, 2.25F}});
+  }
+  EXPECT_FALSE(is_enclosed(cloud));
 }
 
 // Rays from farther points are tested against all primitives, which may take hours.

@@ -1,6 +1,7 @@
 #include "base/system/free_memory.hpp"
 
 #include "base/system/control_groups.hpp"
+#include "base/system/float_environment.hpp"
 
 #include <microtrace/memory.hpp>
 
@@ -110,6 +111,7 @@ const char* out_of_memory() {
 }
 
 std::uint64_t default_memory_limit() {
+  const FloatEnvironment environment;
   return free_memory() / 4 * 3;
 }
 

@@ -1,5 +1,6 @@
 #include "base/little_endian.hpp"
 #include "base/memory_account.hpp"
+#include "base/system/float_environment.hpp"
 #include "io/checkpoint/bytes.hpp"
 #include "io/checkpoint/pixel_blocks.hpp"
 #include "io/file.hpp"
@@ -229,6 +230,7 @@ io::AtomicFile& write_to(CheckpointWriter& file, const Checkpoint& checkpoint) {
 }  // namespace
 
 void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path) {
+  const FloatEnvironment environment;
   CheckpointWriter file(path);
   write_to(file, checkpoint).commit();
 }

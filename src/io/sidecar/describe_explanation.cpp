@@ -1,3 +1,5 @@
+#include "base/system/float_environment.hpp"
+
 #include <microtrace/explain.hpp>
 
 #include <cmath>
@@ -173,6 +175,7 @@ Json stages_json(const StageCounts& stages) {
 }  // namespace
 
 std::string explanation_json(const Explanation& e) {
+  const FloatEnvironment environment;
   std::string text = "{\n  \"version\": 1";
   const auto add = [&](const std::string& name, const std::string& value) {
     text.append(",\n  \"").append(name).append("\": ").append(value);

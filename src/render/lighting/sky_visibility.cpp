@@ -96,9 +96,13 @@ bool SkyVisibility::is_near() const {
   return glm::all(glm::lessThanEqual(-most, low_)) && glm::all(glm::lessThanEqual(high_, most));
 }
 
+// Few rays escape from rooms, and from dense clouds of particles. Among particles, however, rays
+// travel less far than a cell is wide, so that a cell's visibility tells little about its points.
 bool SkyVisibility::finds_enclosed() const {
   constexpr std::uint32_t kRays = 256, kGreatestPart = kRays / 8;
+  constexpr double kLeastCells = 1.5;  // mean distance of hits
   std::uint32_t escaped = 0;
+  double hits = 0, distance = 0;
   for (std::uint32_t i = 0; i < kRays; ++i) {
     const sampling::Sobol sobol(0, i);
     const Vec2 xy = sobol.pair(0), z = sobol.pair(1), d = sobol.pair(2);
@@ -108,8 +112,12 @@ bool SkyVisibility::finds_enclosed() const {
         .o = in_range(low_ + (high_ - low_) * DVec3(xy.x, xy.y, z.x)),
         .d = bins.direction(bin, {d.x * HemisphereBins::kCount - static_cast<float>(bin), d.y})};
     if (light_along(ray) > 0) ++escaped;
+    if (const std::optional<Hit> hit = bvh_.intersect(ray)) {
+      ++hits;
+      distance += double{hit->t};
+    }
   }
-  return escaped <= kGreatestPart;
+  return escaped <= kGreatestPart && distance >= kLeastCells * hits * grid_.cell_size;
 }
 
 float SkyVisibility::light_along(const Ray& ray) const {

@@ -28,6 +28,7 @@ PreparedScene::PreparedScene(Scene scene, PrepareOptions options)
     : PreparedScene(std::make_shared<const Scene>(std::move(scene)), std::move(options)) {}
 
 PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, PrepareOptions options) {
+  if (scene == nullptr) throw Error(ErrorKind::usage, "", "there is no scene to prepare");
   check_indices(*scene);
   MemoryAccount memory(options.memory);
   {

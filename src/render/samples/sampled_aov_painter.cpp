@@ -1,5 +1,6 @@
 #include "render/samples/sampled_aov_painter.hpp"
 
+#include "base/system/float_environment.hpp"
 #include "render/aovs/feature_tracer.hpp"
 #include "render/film/tiles.hpp"
 #include "render/sampling/dimensions.hpp"
@@ -74,6 +75,7 @@ bool is_computed_channel(std::string_view name) {
 }
 
 void compute_channels(const SampleSums& sums, std::span<Channel> channels) {
+  const FloatEnvironment environment;
   for (Channel& channel : channels) {
     const std::optional<SampledAov> aov = aov_of_sums(channel.name);
     if (!aov) continue;

@@ -7,4 +7,7 @@ namespace microtrace {
 /// undefined behavior. Throws Error (invalid_scene).
 void check_indices(const Scene& scene);
 
+/// Checks all rules of an environment, as validate() does. Throws Error (invalid_scene).
+void check_environment(const Environment& environment);
+
 }  // namespace microtrace

@@ -12,6 +12,16 @@ Rule check_radiance(const char* field, const Vec3& radiance) {
   return in_range(field, radiance, 0, kMaxRadiance);
 }
 
+/// Checks the pixels of a map, if the environment has one.
+Rule check_pixels(const Environment& environment) {
+  const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
+  if (map == nullptr) return {};
+  for (const Vec3& pixel : (*map)->pixels) {
+    if (Rule rule = check_radiance("content", pixel)) return rule;
+  }
+  return {};
+}
+
 }  // namespace
 
 Rule validate(const Light& light) {
@@ -39,9 +49,10 @@ Rule validate(const Light& light) {
 
 Rule validate(const Environment& environment) {
   const auto* radiance = std::get_if<Vec3>(&environment.content);
-  return first_of({radiance != nullptr ? check_radiance("content", *radiance) : Rule{},
-                   in_range("rotation", environment.rotation, -1e6, 1e6),
-                   at_least("intensity", environment.intensity, 0)});
+  return first_of(
+      {radiance != nullptr ? check_radiance("content", *radiance) : check_pixels(environment),
+       in_range("rotation", environment.rotation, -1e6, 1e6),
+       at_least("intensity", environment.intensity, 0)});
 }
 
 }  // namespace microtrace

@@ -53,7 +53,7 @@ void check_image(std::size_t place, const Image& image) {
           .message = "must hold width x height x channels numbers, with 1 to 4 channels"});
 }
 
-void check_environment(const Environment& environment) {
+void check_map(const Environment& environment) {
   const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
   if (map == nullptr) return;
   const bool is_right = *map != nullptr && (*map)->width >= 1 && (*map)->height >= 1 &&
@@ -83,7 +83,7 @@ void check_references(const Scene& scene) {
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     if (scene.images[i]) check_image(i, *scene.images[i]);
   }
-  if (scene.environment) check_environment(*scene.environment);
+  if (scene.environment) check_map(*scene.environment);
 }
 
 /// Checks the numbers that belong to the scene itself.
@@ -136,9 +136,12 @@ void validate(const Scene& scene) {
     if (const auto broken = validate(scene.lights[i].light))
       refuse(item("lights", i) + "/light", *broken);
   }
-  if (scene.environment) {
-    if (const auto broken = validate(*scene.environment)) refuse("/environment", *broken);
-  }
+  if (scene.environment) check_environment(*scene.environment);
+}
+
+void check_environment(const Environment& environment) {
+  check_map(environment);
+  if (const auto broken = validate(environment)) refuse("/environment", *broken);
 }
 
 }  // namespace microtrace

@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -32,6 +35,40 @@ Vec3 pixel(float epsilon, const PerspectiveCamera& camera = {}) {
   scene.objects.push_back({.name = "near", .shape = Disc{{0, 0, -4}, {0, 0, 1}, 1}, .material = 0});
   scene.objects.push_back({.name = "far", .shape = Disc{{0, 0, -6}, {0, 0, 1}, 1}, .material = 1});
   return render(scene, camera, {.width = 1, .height = 1}, {.threads = 1}).row(0)[0];
+}
+
+/// Returns the error of render().
+Error error_of(const Camera& camera, ImageSize size, const RenderOptions& options) {
+  try {
+    (void)render(Scene{}, camera, size, options);
+  } catch (const Error& error) {
+    return error;
+  }
+  return {ErrorKind::internal, "", "nothing was thrown"};
+}
+
+TEST(Render, RefusesEnvironmentsCamerasAndSizesThatItCantUse) {
+  const PathIntegrator path;
+  const auto of_map = [&](std::shared_ptr<const RadianceMap> map) {
+    return error_of(PerspectiveCamera{}, {.width = 2, .height = 2},
+                    {.integrator = &path, .environment = Environment{.content = std::move(map)}});
+  };
+  const Vec3 nan(std::numeric_limits<float>::quiet_NaN());
+  for (const Error& error :
+       {of_map(nullptr), of_map(std::make_shared<RadianceMap>()),
+        of_map(std::make_shared<RadianceMap>(RadianceMap{.width = 9, .height = 9})),
+        of_map(std::make_shared<RadianceMap>(
+            RadianceMap{.width = 1, .height = 1, .pixels = {nan}}))}) {
+    EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+    EXPECT_EQ(error.diagnostic().pointer, "/environment/content");
+  }
+  const Error parallel =
+      error_of(PerspectiveCamera{.pose = {.direction = {0, 1, 0}}}, {.width = 2, .height = 2}, {});
+  EXPECT_EQ(parallel.kind(), ErrorKind::invalid_scene);
+  EXPECT_EQ(parallel.diagnostic().pointer, "/camera/up");
+  EXPECT_EQ(error_of(PerspectiveCamera{}, {.width = 0, .height = 5}, {}).kind(), ErrorKind::usage);
+  EXPECT_EQ(error_of(PerspectiveCamera{}, {.width = ~0U, .height = ~0U}, {}).kind(),
+            ErrorKind::limit);
 }
 
 TEST(Render, HitsLieInTheOpenIntervalFromEpsilon) {

@@ -1,3 +1,4 @@
+#include <microtrace/error.hpp>
 #include <microtrace/objects.hpp>
 
 #include <cstddef>
@@ -33,6 +34,27 @@ Objects with_run() {
 
 double x_of(const Object& object) {
   return std::get<Mesh>(object.shape).position(0).x;
+}
+
+TEST(Objects, RunsConsistOfMeshes) {
+  Objects objects({{.name = "first", .shape = Sphere{}}});
+  EXPECT_THROW(objects.push_back_run({.name = "ball", .shape = Sphere{}}, {at(1), at(2)}), Error);
+  EXPECT_EQ(objects.size(), 1U);
+  EXPECT_EQ(std::as_const(objects).all().size(), 1U);
+}
+
+TEST(Objects, AreChangedAtIteratorsOfConstOnes) {
+  Objects objects = with_run();
+  const Objects& read = objects;
+  objects.insert(read.begin() + 2, Object{.name = "new", .shape = Sphere{}});
+  EXPECT_EQ(read[2].name, "new");
+  objects = with_run();
+  objects.erase(read.begin() + 1, read.begin() + 3);
+  ASSERT_EQ(read.size(), 3U);
+  EXPECT_EQ(read[1].name, "tree[2]");
+  objects = with_run();
+  objects.erase(read.begin());
+  EXPECT_EQ(read[0].name, "tree[0]");
 }
 
 TEST(Objects, OfRunsReadLikeSingleOnes) {

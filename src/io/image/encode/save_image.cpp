@@ -1,4 +1,5 @@
 #include "base/system/float_environment.hpp"
+#include "base/text/printable.hpp"
 #include "io/file_name.hpp"
 #include "io/image/encode/png.hpp"
 #include "io/image/encode/ppm.hpp"
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -61,12 +63,30 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
     refuse(" has no alpha; write .png or .exr, or give the background a color");
   if (!contents.size) return;
   const auto [width, height] = *contents.size;
+  if (std::min(width, height) == 0) refuse(" needs at least 1 pixel");
   if (std::min(width, height) < format.least_side)
     refuse(" needs at least " + std::to_string(format.least_side) +
            " pixels in width and height; write .png");
   if (std::max(width, height) > format.most_side)
     refuse(" holds at most " + std::to_string(format.most_side) +
            " pixels in width and height; write .png");
+}
+
+/// Throws Error(usage) unless each channel has one number for each pixel and a name of its own.
+void require_whole_channels(const Film& film) {
+  const std::size_t pixels = std::size_t{film.size().width} * film.size().height;
+  std::set<std::string> names = {"R", "G", "B", "A"};
+  for (const Channel& channel : film.channels) {
+    const auto refuse = [&](const char* message) {
+      throw Error(ErrorKind::usage, "", "the channel " + in_quotes(channel.name) + message);
+    };
+    std::visit(
+        [&](const auto& values) {
+          if (values.size() != pixels) refuse(" must have one number for each pixel");
+        },
+        channel.values);
+    if (!names.insert(channel.name).second) refuse(" has the name of another channel");
+  }
 }
 
 /// Throws Error(usage) if the film has numbers that formats with one exponent for three colors
@@ -140,6 +160,7 @@ void check_sidecar_path(const std::filesystem::path& path, const std::filesystem
 void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding ppm,
                 const Sidecar* sidecar) {
   const FloatEnvironment environment;
+  require_whole_channels(film);
   const std::string extension = format_extension(path);
   const FilmContents contents{
       .alpha = film.has_alpha(), .channels = !film.channels.empty(), .size = film.size()};
