@@ -82,13 +82,13 @@ class MICROTRACE_EXPORT Objects {
   [[nodiscard]] iterator end() { return edit().end(); }
   template <class... Arguments>
   iterator insert(const_iterator at, Arguments&&... arguments) {
-    const const_iterator place = editable(at);
+    const auto place = editable(at);
     return edit().insert(place, std::forward<Arguments>(arguments)...);
   }
   iterator erase(const_iterator at) { return erase(at, at + 1); }
   iterator erase(const_iterator first, const_iterator last) {
     const std::ptrdiff_t count = last - first;
-    const const_iterator begin = editable(first);  // ends the life of `last`
+    const auto begin = editable(first);  // ends the life of `last`
     return edit().erase(begin, begin + count);
   }
   void resize(std::size_t size, const Object& value) { edit().resize(size, value); }

@@ -1,6 +1,7 @@
 #include "io/module_function.hpp"
 
 #include "base/system/float_environment.hpp"
+#include "base/system/free_memory.hpp"
 #include "io/elf_file.hpp"
 #include "io/module_folders.hpp"
 
@@ -8,7 +9,6 @@
 
 #include <cerrno>
 #include <dlfcn.h>
-#include <sys/resource.h>
 #include <sys/statvfs.h>
 #include <system_error>
 
@@ -23,9 +23,8 @@ std::string last_complaint(const std::string& otherwise) {
 /// True if this complaint of the dynamic linker of glibc is about memory. A segment can't be mapped
 /// for other reasons too, such as a file system without permission to execute.
 bool lacks_memory(const std::string& complaint) {
-  rlimit limit{};
-  const bool is_limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-  return (is_limited && complaint.find("failed to map segment") != complaint.npos) ||
+  return (has_limited_address_space() &&
+          complaint.find("failed to map segment") != complaint.npos) ||
          complaint.find("annot allocate memory") != complaint.npos;
 }
 

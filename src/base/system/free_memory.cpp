@@ -69,25 +69,26 @@ std::uint64_t left_in_all_groups(const fs::path& root) {
   return least;
 }
 
-bool has_limit(decltype(RLIMIT_AS) resource, rlim_t& limit) {
+/// Returns a limit of the process, such as RLIMIT_AS, in bytes.
+std::optional<std::uint64_t> limit_of(decltype(RLIMIT_AS) resource) {
   rlimit limits{};
-  const bool is_known = ::getrlimit(resource, &limits) == 0;
-  limit = limits.rlim_cur;
-  return is_known && limit != RLIM_INFINITY;
+  const bool is_limited = ::getrlimit(resource, &limits) == 0 && limits.rlim_cur != RLIM_INFINITY;
+  return is_limited ? std::optional<std::uint64_t>(limits.rlim_cur) : std::nullopt;
 }
 
 /// Returns the memory left within the limits of the process.
 std::uint64_t left_in_process(const fs::path& root) {
+  const auto space = limit_of(RLIMIT_AS), of_data = limit_of(RLIMIT_DATA);
+  if (!space && !of_data) return kUnlimited;
   // The numbers of pages of the address space, and of data and stacks.
   std::uint64_t whole = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
   std::ifstream(root / "proc/self/statm") >> whole >> resident >> shared >> text >> library >> data;
   const auto page = static_cast<std::uint64_t>(std::max(::sysconf(_SC_PAGESIZE), 0L));
-  std::uint64_t least = kUnlimited;
-  rlim_t limit = 0;
-  if (has_limit(RLIMIT_AS, limit)) least = limit - std::min<rlim_t>(limit, whole * page);
-  if (has_limit(RLIMIT_DATA, limit))
-    least = std::min<std::uint64_t>(least, limit - std::min<rlim_t>(limit, data * page));
-  return least;
+  const auto left = [page](std::uint64_t limit, std::uint64_t pages) {
+    return limit - std::min(limit, pages * page);
+  };
+  return std::min(space ? left(*space, whole) : kUnlimited,
+                  of_data ? left(*of_data, data) : kUnlimited);
 }
 
 }  // namespace
@@ -103,10 +104,13 @@ std::uint64_t free_memory(const fs::path& root) {
   return std::min({available, left_in_all_groups(root), left_in_process(root)});
 }
 
+bool has_limited_address_space() {
+  return limit_of(RLIMIT_AS).has_value();
+}
+
 const char* out_of_memory() {
-  rlim_t limit = 0;
-  if (has_limit(RLIMIT_AS, limit)) return "out of memory; raise the limit of memory (ulimit -v)";
-  if (has_limit(RLIMIT_DATA, limit)) return "out of memory; raise the limit of data (ulimit -d)";
+  if (has_limited_address_space()) return "out of memory; raise the limit of memory (ulimit -v)";
+  if (limit_of(RLIMIT_DATA)) return "out of memory; raise the limit of data (ulimit -d)";
   return "out of memory";
 }
 

@@ -111,8 +111,9 @@ bool SkyVisibility::finds_enclosed() const {
     const Ray ray{
         .o = in_range(low_ + (high_ - low_) * DVec3(xy.x, xy.y, z.x)),
         .d = bins.direction(bin, {d.x * HemisphereBins::kCount - static_cast<float>(bin), d.y})};
-    if (light_along(ray) > 0) ++escaped;
-    if (const std::optional<Hit> hit = bvh_.intersect(ray)) {
+    const std::optional<Hit> hit = bvh_.intersect(ray);
+    if (light_along(ray, hit) > 0) ++escaped;
+    if (hit) {
       ++hits;
       distance += double{hit->t};
     }
@@ -120,9 +121,9 @@ bool SkyVisibility::finds_enclosed() const {
   return escaped <= kGreatestPart && distance >= kLeastCells * hits * grid_.cell_size;
 }
 
-float SkyVisibility::light_along(const Ray& ray) const {
+float SkyVisibility::light_along(const Ray& ray, const std::optional<Hit>& hit) const {
   std::uint64_t beyond = 0;
-  return transmittance(bvh_, shading_, true, ray, bvh_.intersect(ray), std::nullopt, beyond);
+  return transmittance(bvh_, shading_, true, ray, hit, std::nullopt, beyond);
 }
 
 std::size_t SkyVisibility::index(const Vec3& p, const Vec3& n) const {
@@ -232,7 +233,7 @@ class SkyVisibility::Probe {
                                   const LightBlockers& blockers) const {
     if (hits_[i] == kNoPrimitive) return 1;
     if (blockers.blocks(hits_[i])) return 0;
-    return visibility_.light_along(rays[i]);
+    return visibility_.light_along(rays[i], visibility_.bvh_.intersect(rays[i]));
   }
 
   const SkyVisibility& visibility_;

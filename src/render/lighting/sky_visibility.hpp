@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace microtrace {
@@ -54,8 +55,8 @@ class SkyVisibility {
   /// Points slightly above the cell's surfaces. Their rays only guide the sampling, so they don't
   /// need exact origins.
   [[nodiscard]] std::vector<Start> starts(std::size_t index, const SignedAxis& about) const;
-  /// The fraction of the environment's light that arrives along a ray.
-  [[nodiscard]] float light_along(const Ray& ray) const;
+  /// The fraction of the environment's light that arrives along a ray with this nearest hit.
+  [[nodiscard]] float light_along(const Ray& ray, const std::optional<Hit>& hit) const;
 
   const Bvh& bvh_;
   const Shading& shading_;
