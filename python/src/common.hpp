@@ -24,6 +24,21 @@ nb::object member(const char* module, const char* name);
 nb::object to_python(const Diagnostic& diagnostic);
 nb::list to_python(const std::vector<Diagnostic>& diagnostics);
 
+/// A call of a bound function. While it exists, the interpreter doesn't exit. An interpreter that
+/// exits ends each other thread that waits for its lock, within whatever C++ function called
+/// Python, and nanobind's objects abort the process when such a thread destroys them. Throws
+/// SystemExit, which ends daemon threads without a message, if the interpreter exits.
+class Call {
+ public:
+  Call();
+  ~Call();
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+};
+
+/// Belongs in the definition of each bound function that may run Python code or release the lock.
+using WholeCall = nb::call_guard<Call>;
+
 /// Runs f() without the interpreter's lock, on a separate thread if the calling thread's stack is
 /// too small for tracing rays.
 void run_unlocked(const std::function<void()>& f);

@@ -97,22 +97,27 @@ bool is_whole(const fs::path& path, std::uint32_t view) {
 
 void bind_datasets(nb::module_& module) {
   nb::class_<Dataset>(module, "Dataset")
-      .def("__init__", &open)
-      .def("order", [](Dataset& self) { return self.dataset().order(); })
-      .def("content",
-           [](Dataset& self) {
-             const DatasetIdentity& identity = self.dataset().identity();
-             return nb::make_tuple(identity.program, identity.digest);
-           })
-      .def("create",
-           [](Dataset& self, const fs::path& path) {
-             const DatasetFolder created = self.dataset().create(path);
-           })
-      .def("render", &render)
-      .def("finish", &finish)
-      .def("take_warnings", &Dataset::take_warnings);
-  module.def("read_dataset", &read);
-  module.def("is_whole_view", &is_whole);
+      .def("__init__", &open, WholeCall())
+      .def(
+          "order", [](Dataset& self) { return self.dataset().order(); }, WholeCall())
+      .def(
+          "content",
+          [](Dataset& self) {
+            const DatasetIdentity& identity = self.dataset().identity();
+            return nb::make_tuple(identity.program, identity.digest);
+          },
+          WholeCall())
+      .def(
+          "create",
+          [](Dataset& self, const fs::path& path) {
+            const DatasetFolder created = self.dataset().create(path);
+          },
+          WholeCall())
+      .def("render", &render, WholeCall())
+      .def("finish", &finish, WholeCall())
+      .def("take_warnings", &Dataset::take_warnings, WholeCall());
+  module.def("read_dataset", &read, WholeCall());
+  module.def("is_whole_view", &is_whole, WholeCall());
 }
 
 }  // namespace microtrace::python

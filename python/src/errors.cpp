@@ -48,18 +48,28 @@ void set_exception(ErrorKind kind, const Diagnostic& diagnostic) {
   PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
 }
 
+/// Sets the Python exception for an exception of C++. Rethrows those that nanobind converts.
+void set_exception_of(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const Error& error) {
+    set_exception(error.kind(), error.diagnostic());
+  } catch (const std::bad_alloc&) {
+    Diagnostic diagnostic;
+    diagnostic.message = out_of_memory();
+    set_exception(ErrorKind::limit, diagnostic);
+  }
+}
+
 }  // namespace
 
 void bind_errors(nb::module_& /*module*/) {
   nb::register_exception_translator([](const std::exception_ptr& thrown, void* /*payload*/) {
     try {
-      std::rethrow_exception(thrown);
-    } catch (const Error& error) {
-      set_exception(error.kind(), error.diagnostic());
-    } catch (const std::bad_alloc&) {
-      Diagnostic diagnostic;
-      diagnostic.message = out_of_memory();
-      set_exception(ErrorKind::limit, diagnostic);
+      const Call call;  // the one that failed has ended
+      set_exception_of(thrown);
+    } catch (nb::python_error& error) {
+      error.restore();
     }
   });
 }

@@ -74,20 +74,27 @@ nb::object pixels_of_map(const SharedMap& shared) {
 
 void bind_images(nb::module_& module) {
   nb::class_<SharedImage>(module, "ImageData")
-      .def("__init__",
-           [](SharedImage* self, const AnyArray& pixels, std::string name) {
-             new (self) SharedImage{make_image(pixels, std::move(name))};
-           })
+      .def(
+          "__init__",
+          [](SharedImage* self, const AnyArray& pixels, std::string name) {
+            new (self) SharedImage{make_image(pixels, std::move(name))};
+          },
+          WholeCall())
       .def_prop_ro("name", [](const SharedImage& self) { return self.image->name; })
-      .def_prop_ro("pixels", pixels_of);
+      .def_prop_ro("pixels", pixels_of, WholeCall());
   nb::class_<SharedMap>(module, "MapData")
-      .def("__init__",
-           [](SharedMap* self, const AnyArray& pixels) { new (self) SharedMap{make_map(pixels)}; })
-      .def_prop_ro("pixels", pixels_of_map);
-  module.def("load_map", [](const std::filesystem::path& path) {
-    LoadedRadianceMap loaded = result_unlocked([&] { return load_radiance_map(path); });
-    return nb::make_tuple(SharedMap{std::move(loaded.map)}, to_python(loaded.warnings));
-  });
+      .def(
+          "__init__",
+          [](SharedMap* self, const AnyArray& pixels) { new (self) SharedMap{make_map(pixels)}; },
+          WholeCall())
+      .def_prop_ro("pixels", pixels_of_map, WholeCall());
+  module.def(
+      "load_map",
+      [](const std::filesystem::path& path) {
+        LoadedRadianceMap loaded = result_unlocked([&] { return load_radiance_map(path); });
+        return nb::make_tuple(SharedMap{std::move(loaded.map)}, to_python(loaded.warnings));
+      },
+      WholeCall());
 }
 
 }  // namespace microtrace::python

@@ -110,7 +110,7 @@ nb::object picture_array(const std::vector<std::size_t>& shape, bool is_integer)
 }  // namespace
 
 void bind_memory(nb::module_& module) {
-  module.def("picture_array", &picture_array);
+  module.def("picture_array", &picture_array, WholeCall());
 }
 
 }  // namespace microtrace::python

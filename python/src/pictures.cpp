@@ -414,14 +414,14 @@ void bind_pictures(nb::module_& module) {
   }
   module.attr("quantities") = nb::tuple(names);
   module.def("render", &render_into, nb::arg("scene"), nb::arg("camera").none(), nb::arg("outputs"),
-             nb::arg("arguments"));
+             nb::arg("arguments"), WholeCall());
   module.def("automatic_exposure", &exposure_for, nb::arg("scene"), nb::arg("camera").none(),
-             nb::arg("arguments"));
-  module.def("save", &save);
-  module.def("denoiser_name", &denoiser_name);
-  module.def("denoise", &denoise);
-  module.def("encode", &encode);
-  module.def("frame", &frame_scene);
+             nb::arg("arguments"), WholeCall());
+  module.def("save", &save, WholeCall());
+  module.def("denoiser_name", &denoiser_name, WholeCall());
+  module.def("denoise", &denoise, WholeCall());
+  module.def("encode", &encode, WholeCall());
+  module.def("frame", &frame_scene, WholeCall());
 }
 
 }  // namespace microtrace::python

@@ -176,23 +176,23 @@ void bind_rays(nb::module_& module) {
   nb::object prepared = module.attr("Prepared");
   auto& type = static_cast<nb::class_<Prepared>&>(prepared);
   type.def("intersect", &intersect, nb::arg("rays"), nb::arg("t_min").none(),
-           nb::arg("t_max").none(), nb::arg("outputs"), nb::arg("threads"));
+           nb::arg("t_max").none(), nb::arg("outputs"), nb::arg("threads"), WholeCall());
   type.def("explain", &explain_ray, nb::arg("ray"), nb::arg("t_min").none(),
-           nb::arg("t_max").none(), nb::arg("max_hits"), nb::arg("max_misses"));
+           nb::arg("t_max").none(), nb::arg("max_hits"), nb::arg("max_misses"), WholeCall());
   type.def("occluded", &occluded, nb::arg("rays"), nb::arg("t_min").none(), nb::arg("t_max").none(),
-           nb::arg("result"), nb::arg("threads"));
+           nb::arg("result"), nb::arg("threads"), WholeCall());
   nb::class_<AllHits>(module, "AllHits").def("__len__", [](const AllHits& all) {
     return all.hits.size();
   });
   type.def("intersect_all", &intersect_all, nb::arg("rays"), nb::arg("t_min").none(),
-           nb::arg("t_max").none(), nb::arg("threads"));
+           nb::arg("t_max").none(), nb::arg("threads"), WholeCall());
   type.def("fill_all", &fill_all, nb::arg("hits"), nb::arg("rays"), nb::arg("t_min").none(),
            nb::arg("t_max").none(), nb::arg("outputs"), nb::arg("offsets"), nb::arg("owners"),
-           nb::arg("ties"), nb::arg("threads"));
+           nb::arg("ties"), nb::arg("threads"), WholeCall());
   type.def("find_facing", &find_facing, nb::arg("rays"), nb::arg("faces"), nb::arg("facing"),
-           nb::arg("threads"));
+           nb::arg("threads"), WholeCall());
   type.def("count_crossings", &count_crossings, nb::arg("rays"), nb::arg("t_min").none(),
-           nb::arg("t_max").none(), nb::arg("counts"), nb::arg("threads"));
+           nb::arg("t_max").none(), nb::arg("counts"), nb::arg("threads"), WholeCall());
 }
 
 }  // namespace microtrace::python

@@ -85,16 +85,18 @@ void prepare(Prepared* self, const nb::object& source, const nb::object& previou
 void bind_scenes(nb::module_& module) {
   module.def("linear_from_srgb", &linear_from_srgb);
   nb::class_<SharedFile>(module, "SceneFile")
-      .def(nb::new_(&open))
-      .def("at", &at, nb::arg("time").none());
+      .def(nb::new_(&open), WholeCall())
+      .def("at", &at, nb::arg("time").none(), WholeCall());
   nb::class_<Prepared>(module, "Prepared")
       .def("__init__", &prepare, nb::arg("scene"), nb::arg("previous").none(), nb::arg("threads"),
-           nb::arg("fast_build"))
+           nb::arg("fast_build"), WholeCall())
       .def_prop_ro("is_flat", [](const Prepared& self) { return self.is_flat; })
-      .def_prop_ro("has_bounded_object",
-                   [](const Prepared& self) {
-                     return result_unlocked([&] { return has_bounded_object(self.scene.scene()); });
-                   })
+      .def_prop_ro(
+          "has_bounded_object",
+          [](const Prepared& self) {
+            return result_unlocked([&] { return has_bounded_object(self.scene.scene()); });
+          },
+          WholeCall())
       .def_prop_ro("has_lights",
                    [](const Prepared& self) { return !self.scene.scene().lights.empty(); })
       .def_prop_ro("size",
@@ -102,14 +104,19 @@ void bind_scenes(nb::module_& module) {
                      const ImageSize size = self.scene.scene().size;
                      return nb::make_tuple(size.width, size.height);
                    })
-      .def("default_camera",
-           [](const Prepared& self, std::array<std::uint32_t, 2> size) {
-             return camera_to_python(
-                 default_camera(self.scene.scene(), {.width = size[0], .height = size[1]}), "");
-           })
-      .def("scene", [](const Prepared& self) {
-        return scene_to_python(self.scene.scene(), self.is_flat, self.has_background);
-      });
+      .def(
+          "default_camera",
+          [](const Prepared& self, std::array<std::uint32_t, 2> size) {
+            return camera_to_python(
+                default_camera(self.scene.scene(), {.width = size[0], .height = size[1]}), "");
+          },
+          WholeCall())
+      .def(
+          "scene",
+          [](const Prepared& self) {
+            return scene_to_python(self.scene.scene(), self.is_flat, self.has_background);
+          },
+          WholeCall());
 }
 
 }  // namespace microtrace::python

@@ -93,14 +93,16 @@ void bind_solids(nb::module_& module) {
               throw Error(ErrorKind::usage, "object", "must not be negative");
             new (self) SolidOf{Solid(prepared.scene, object), prepared.scene};
           },
-          nb::arg("scene"), nb::arg("object").none())
-      .def("is_closed",
-           [](const SolidOf& self) {
-             return result_unlocked([&] { return self.solid.is_closed(); });
-           })
-      .def("open_edges", &open_edges)
-      .def("locate", &locate)
-      .def("nearest", &nearest);
+          nb::arg("scene"), nb::arg("object").none(), WholeCall())
+      .def(
+          "is_closed",
+          [](const SolidOf& self) {
+            return result_unlocked([&] { return self.solid.is_closed(); });
+          },
+          WholeCall())
+      .def("open_edges", &open_edges, WholeCall())
+      .def("locate", &locate, WholeCall())
+      .def("nearest", &nearest, WholeCall());
 }
 
 }  // namespace microtrace::python

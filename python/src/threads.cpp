@@ -24,8 +24,7 @@ constexpr std::chrono::milliseconds kPatience{50};
 /// The number of items that a thread takes at a time.
 constexpr std::size_t kBlock = 4096;
 
-/// The calls that run without the interpreter's lock. The interpreter must not exit before they
-/// end, because it ends the threads that need its lock, even within destructors.
+/// The calls that are running.
 class Calls {
  public:
   /// Returns false if the interpreter exits. The thread that makes it exit may still run calls.
@@ -75,17 +74,6 @@ void forget_calls() {
   throw nb::python_error();
 }
 
-/// A running call. Exists until its thread has the interpreter's lock again.
-class Call {
- public:
-  Call() {
-    if (!calls.begin()) end_thread();
-  }
-  ~Call() { calls.end(); }
-  Call(const Call&) = delete;
-  Call& operator=(const Call&) = delete;
-};
-
 /// Throws Error (limit) if rays may overflow the calling thread's stack.
 void require_stack() {
   if (free_stack() >= kStackSize) return;
@@ -96,6 +84,14 @@ void require_stack() {
 }
 
 }  // namespace
+
+Call::Call() {
+  if (!calls.begin()) end_thread();
+}
+
+Call::~Call() {
+  calls.end();
+}
 
 void bind_threads(nb::module_& module) {
   module.def("_cancel_all", [] {

@@ -93,8 +93,8 @@ void open_viewer(Viewer* self, const Prepared& prepared, std::string name,
 void bind_viewer(nb::module_& module) {
   nb::class_<Viewer>(module, "Viewer")
       .def("__init__", &open_viewer, nb::arg("prepared"), nb::arg("name"), nb::arg("words"),
-           nb::arg("port"), nb::arg("allowed_host"))
-      .def("close", &Viewer::close, nb::call_guard<nb::gil_scoped_release>())
+           nb::arg("port"), nb::arg("allowed_host"), WholeCall())
+      .def("close", [](Viewer& self) { run_unlocked([&] { self.close(); }); })
       .def_prop_ro("address", &Viewer::address)
       .def_prop_ro("port", &Viewer::port)
       .def_prop_ro("is_closed", &Viewer::is_closed);

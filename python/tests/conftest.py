@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +30,21 @@ def program() -> str:
 @pytest.fixture
 def rng() -> np.random.Generator:
     return np.random.default_rng(1)
+
+
+@contextmanager
+def interrupted_after(seconds: float) -> Iterator[None]:
+    """Interrupts the body as Ctrl+C does and checks that it ends soon. Background jobs of a shell
+    ignore the signal unless they ask for it."""
+    earlier = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            start = time.monotonic()
+            threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT)).start()
+            yield
+        assert time.monotonic() - start < 30
+    finally:
+        signal.signal(signal.SIGINT, earlier)
 
 
 def icosphere(levels: int) -> tuple[np.ndarray, np.ndarray]:
