@@ -135,7 +135,8 @@ class MICROTRACE_EXPORT Bvh {
   [[nodiscard]] const Primitives& primitives() const;
 
   /// Returns a box that contains all primitives, in scene coordinates. Returns nothing if a
-  /// primitive is not in the tree: planes, quadrics, and small numbers of other shapes.
+  /// primitive is not in the tree: planes, quadrics other than ellipsoids, and small numbers of
+  /// other shapes.
   [[nodiscard]] std::optional<Box> bounds() const;
 
   /// Returns the size of the tree in bytes, without the scene.

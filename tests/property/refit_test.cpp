@@ -66,7 +66,11 @@ void for_each_point(Scene& scene, const F& move) {
             for (Vec3* p : {&s.a, &s.b, &s.c}) move(*p);
           } else if constexpr (std::is_same_v<AnyShape, Plane>) {
             move(s.point);
-          } else if constexpr (!std::is_same_v<AnyShape, Quadric>) {
+          } else if constexpr (std::is_same_v<AnyShape, Quadric>) {
+            Vec3 linear(s.g, s.h, s.i);
+            move(linear);
+            s.g = linear.x, s.h = linear.y, s.i = linear.z;
+          } else {
             move(s.center);
           }
         },

@@ -1,6 +1,7 @@
 #include "support/tree_walk.hpp"
 
 #include "accel/build/wide/wide_tree.hpp"
+#include "support/ellipsoid_box.hpp"
 
 #include <algorithm>
 #include <array>
@@ -61,8 +62,11 @@ bool holds(const Bounds& b, const Disc& d) {
   return true;
 }
 
-template <class Other>
-bool holds(const Bounds&, const Other&) {
+bool holds(const Bounds& b, const Quadric& q) {
+  return holds_ellipsoid(b, q);
+}
+
+bool holds(const Bounds&, const Plane&) {
   return false;
 }
 

@@ -80,7 +80,7 @@ class Refitter {
     for (std::size_t k = begin; k < end; ++k) {
       if (!exists(to_.others[k])) return false;
       const bool fits = primitives_.visit(to_.others[k], [&]<class AnyShape>(const AnyShape& s) {
-        if constexpr (std::is_same_v<AnyShape, Plane> || std::is_same_v<AnyShape, Quadric>) {
+        if constexpr (std::is_same_v<AnyShape, Plane>) {
           return false;
         } else {
           if (is_empty(s)) return false;

@@ -21,9 +21,6 @@ bool is_apart(const AnyShape& shape, const Bounds& box) {
 bool is_apart(const Plane&, const Bounds&) {
   return false;
 }
-bool is_apart(const Quadric&, const Bounds&) {
-  return false;
-}
 
 // Decides what clears_box leaves open. Exactly for triangles, because the tree may have split them:
 // whether it finds the triangle then depends on the boxes of its parts, if the triangle is near the

@@ -65,9 +65,7 @@ class Gatherer {
   void operator()(PrimitiveId id, const Plane& p) {
     if (!is_empty(p)) to_.unbounded.push_back(id);
   }
-  void operator()(PrimitiveId id, const Quadric& q) {
-    if (!is_empty(q)) to_.unbounded.push_back(id);
-  }
+  void operator()(PrimitiveId id, const Quadric& q) { add_curved(id, q); }
 
   [[nodiscard]] std::uint64_t others() const { return others_; }
 

@@ -100,7 +100,7 @@ class ReferenceReader {
   /// Returns the reference of a bounded primitive.
   [[nodiscard]] Reference of_primitive(PrimitiveId id) {
     return shapes_.visit(id, [&]<class AnyShape>(const AnyShape& shape) {
-      if constexpr (std::is_same_v<AnyShape, Plane> || std::is_same_v<AnyShape, Quadric>) {
+      if constexpr (std::is_same_v<AnyShape, Plane>) {
         return Reference();  // unbounded
       } else {
         const Box box = box_of(shape);

@@ -32,6 +32,8 @@ namespace microtrace::build {
 }
 [[nodiscard]] Box box_of(const Sphere& sphere);
 [[nodiscard]] Box box_of(const Disc& disc);
+/// Infinite unless the quadric is an ellipsoid that is well enough conditioned for float64.
+[[nodiscard]] Box box_of(const Quadric& quadric);
 
 /// Returns a box that contains a point whose coordinates have errors of at most 2^-50 times `size`.
 [[nodiscard]] Box around(const DVec3& point, const DVec3& size);
