@@ -7,8 +7,10 @@ usage: dataset_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 import json
 import os
 import random
+import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -54,10 +56,23 @@ class Dataset(ProgramTest):
 
     def test_warnings_about_views_are_printed_once(self):
         message = self.dataset("--views", "orbit:5", *SMALL, "--formats", "bop", "--depth-scale", "0.001")
-        self.assertEqual(message.count("exceed 65535 steps"), 1, message)
-        self.assertIn("exceed 65535 steps",
+        self.assertEqual(len(re.findall(r"view \d stores \d+ depths beyond 65535 steps as 0", message)), 1, message)
+        self.assertIn("beyond 65535 steps",
                       self.dataset("--views", "orbit:5", *SMALL, "--formats", "bop", "--depth-scale", "0.001", "--strict",
                                    code=3, output="strict"))
+
+    def test_depths_below_half_a_step_are_reported(self):
+        message = self.dataset(*SMALL, "--formats", "bop", "--depth-scale", "50000")
+        self.assertRegex(message, r"view 0 stores \d+ depths below half a step as 0")
+
+    def test_calibrated_cameras_of_views_have_the_size_of_their_images(self):
+        camera = {"type": "calibrated", "position": [0, 0, 6], "direction": [0, 0, -1],
+                  "image": {"width": 50, "height": 30}, "fx": 45, "fy": 90, "cx": 20, "cy": 18}
+        self.dataset(*self.views({"camera": camera}), "--formats", "png,bop")
+        size = struct.unpack(">II", self.contents()["000000.png"][16:24])
+        self.assertEqual(size, (50, 30))
+        k = json.loads(self.contents()["bop/train/000000/scene_camera.json"])["0"]["cam_K"]
+        self.assertEqual((k[0], k[4]), (45, 90))
 
     def test_listed_views(self):
         camera = {"type": "perspective", "position": [0, 1, 8], "direction": [0, 0, -1], "vertical_fov": 30}
@@ -107,7 +122,10 @@ class Dataset(ProgramTest):
     def test_bop_needs_objects_that_do_not_move(self):
         scene = SOURCE / "scenes/gltf/moving.glb"
         options = [*SMALL, "--integrator", "flat", "--formats", "bop", "--views", "orbit:2"]
-        self.assertIn("objects that move", self.dataset("--frames", "0:2", "--fps", "2", *options, scene=scene, code=2))
+        for shard in ([], ["--shard", "1/2"]):
+            message = self.dataset("--frames", "0:2", "--fps", "2", *options, *shard, scene=scene, code=2, output="moving")
+            self.assertIn("objects that move", message)
+            self.assertFalse((self.folder / "moving").exists())
         self.dataset("--time", "0.5", *options, scene=scene, output="still")
 
     def test_shards_give_the_bytes_of_one_run(self):
@@ -383,8 +401,12 @@ class Dataset(ProgramTest):
                                  (["--target", "1,2,3"], "--target requires --eye"),
                                  (["--fov", "100"], "--fov requires"),
                                  ([*self.views({"camera": "0"}), *lens], "--aperture and --focus are for views"),
+                                 (["--aov", "depth,id", "--formats", "png,coco,bop"], "--aov is for the formats"),
+                                 (["--aov", "albedo"], "--aov is for the formats"),
                                  (["--animation", "0"], "--animation requires")):
             self.assertIn(message, self.dataset(*options, scene=SOURCE / "scenes/gltf/moving.glb", code=2))
+        sized = self.views({"size": {"width": 8, "height": 6}})
+        self.assertIn("--size is for views", self.dataset(*sized, *SMALL, code=2))
         moving = ["--animation", "0", *self.views({"time": 0.5})]
         self.dataset(*moving, *SMALL, scene=SOURCE / "scenes/gltf/moving.glb", output="moving")
         framed = [*SMALL, "--integrator", "path", "--spp", "2", "--formats", "exr"]

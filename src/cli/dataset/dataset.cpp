@@ -123,6 +123,12 @@ Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
   }
   for_each_look(views_, [&](std::uint32_t i) { renderer_->check_look(views_[i], i); });
   identity_ = identity_of(arguments_, views_, digest.value(), renderer_->denoiser());
+  if (!writes(arguments_, DatasetFormat::bop)) return;
+  // Refuses most poses that BOP can't describe before the folder is made. The others are refused
+  // later, because to pose all frames of a large scene takes long.
+  const std::vector<std::uint32_t> order = rendering_order(views_, std::nullopt);
+  for (const std::size_t i : {order.size() / 2, order.size() - 1})
+    renderer_->load(views_[order[i]]);
 }
 
 std::vector<std::uint32_t> Dataset::order() const {

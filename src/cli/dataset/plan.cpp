@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 #include <tuple>
+#include <variant>
 
 namespace microtrace::cli {
 namespace {
@@ -83,6 +84,9 @@ void check_use(const Arguments& arguments, const std::vector<DatasetView>& views
     refuse_usage(
         "--aperture and --focus are for views without a camera and for those that frame "
         "the scene; set the lens of the cameras in the list of views");
+  if (arguments.size &&
+      std::ranges::all_of(views, [](const DatasetView& view) { return view.size.has_value(); }))
+    refuse_usage("--size is for views without a size, but all have one");
   const bool any_has_time =
       std::ranges::any_of(views, [](const DatasetView& view) { return view.time.has_value(); });
   if (!arguments.load.animation.empty() && !arguments.load.time && !any_has_time)
@@ -97,6 +101,9 @@ void check_formats(const Arguments& arguments) {
     if (dataset.coco.categories != DatasetOptions{}.coco.categories)
       refuse_usage("--categories is for the format coco; add it to --formats");
   }
+  if (!arguments.aovs.empty() && !writes(arguments, DatasetFormat::exr) &&
+      !writes(arguments, DatasetFormat::npz))
+    refuse_usage("--aov is for the formats exr and npz; add one of them to --formats");
   if (dataset.depth_scale != DatasetOptions{}.depth_scale && !writes(arguments, DatasetFormat::bop))
     refuse_usage("--depth-scale is for the format bop; add it to --formats");
 }
@@ -125,6 +132,14 @@ std::vector<DatasetView> views_of(const Arguments& arguments) {
   check_use(arguments, views);
   check_formats(arguments);
   return views;
+}
+
+ImageSize size_of(const Arguments& arguments, const DatasetView& view, const Scene& scene) {
+  if (view.size) return *view.size;
+  if (arguments.size) return *arguments.size;
+  const auto* camera = std::get_if<Camera>(&view.camera);
+  const auto* calibrated = camera != nullptr ? std::get_if<CalibratedCamera>(camera) : nullptr;
+  return calibrated != nullptr ? calibrated->image : scene.size;
 }
 
 std::string stem_of(const Arguments& arguments, const DatasetView& view, std::uint32_t index) {

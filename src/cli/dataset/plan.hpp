@@ -15,6 +15,11 @@ namespace microtrace::cli {
 /// Throws Error.
 [[nodiscard]] std::vector<DatasetView> views_of(const Arguments& arguments);
 
+/// The size of a view's picture: its own, that of the options, that of its camera's calibration
+/// images, or that of the scene.
+[[nodiscard]] ImageSize size_of(const Arguments& arguments, const DatasetView& view,
+                                const Scene& scene);
+
 /// The name of a view's files without extension.
 [[nodiscard]] std::string stem_of(const Arguments& arguments, const DatasetView& view,
                                   std::uint32_t index);

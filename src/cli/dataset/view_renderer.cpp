@@ -255,7 +255,7 @@ std::vector<Aov> ViewRenderer::annotation_channels() const {
 std::vector<std::string> ViewRenderer::render(const DatasetView& view, std::uint32_t index,
                                               const fs::path& folder) {
   prepare(view);
-  const ImageSize size = view.size.value_or(arguments_.size.value_or(scene_->size));
+  const ImageSize size = size_of(arguments_, view, *scene_);
   const Camera camera = camera_of(view, index, size);
   const std::vector<Aov>& shown = arguments_.aovs.exact;
   std::vector<Aov> hidden = annotation_channels();

@@ -1,5 +1,6 @@
 #include "dataset/annotations/bop.hpp"
 
+#include "base/counted.hpp"
 #include "dataset/annotations/bop_names.hpp"
 #include "dataset/annotations/json_text.hpp"
 #include "dataset/annotations/mesh_points.hpp"
@@ -67,8 +68,8 @@ std::string mask_png(const Mask* mask, ImageSize size) {
 }
 
 struct DepthSteps {
-  std::vector<std::uint16_t> steps;  // 0: no depth
-  std::size_t too_far = 0;           // the number of depths without a step
+  std::vector<std::uint16_t> steps;       // 0: no depth
+  std::size_t too_far = 0, too_near = 0;  // the numbers of depths without a step
 };
 
 DepthSteps depth_steps(std::span<const float> depth, const BopOptions& options) {
@@ -79,8 +80,9 @@ DepthSteps depth_steps(std::span<const float> depth, const BopOptions& options) 
         std::floor(double{z} * options.millimeters_per_unit / options.depth_scale + 0.5);
     const bool is_far = step > std::numeric_limits<std::uint16_t>::max();
     if (is_far && std::isfinite(z)) ++result.too_far;
-    result.steps.push_back(is_far || !(step > 0) ? std::uint16_t{0}
-                                                 : static_cast<std::uint16_t>(step));
+    const bool has_step = step > 0 && !is_far;
+    if (z > 0 && !(step > 0)) ++result.too_near;
+    result.steps.push_back(has_step ? static_cast<std::uint16_t>(step) : std::uint16_t{0});
   }
   return result;
 }
@@ -93,6 +95,16 @@ std::uint64_t valid_pixels(const Mask& mask, const std::vector<std::uint16_t>& d
       count += depth[std::size_t{run.y} * width + x] != 0 ? 1U : 0U;
   }
   return count;
+}
+
+/// Warns about depths that are stored as 0, if there are any.
+void warn(std::vector<Diagnostic>& warnings, std::uint32_t view, std::size_t count,
+          const char* place, const char* remedy) {
+  if (count == 0) return;
+  Diagnostic warning;
+  warning.message = "view " + std::to_string(view) + " stores " + counted(count, "depth") + place +
+                    " as 0, and other views may, too; choose a " + remedy + " depth scale";
+  warnings.push_back(warning);
 }
 
 bool is_scale(double x) {
@@ -154,12 +166,8 @@ BopAnnotations bop_view(const DrawnView& view, const BopFrames& frames, const Ma
   const CameraFrame frame(model);
   BopAnnotations result;
   const DepthSteps depth = depth_steps(view.depth, options);
-  if (depth.too_far != 0) {
-    Diagnostic warning;
-    warning.message = std::to_string(depth.too_far) +
-                      " depths exceed 65535 steps and are stored as 0; choose a larger depth scale";
-    result.warnings.push_back(warning);
-  }
+  warn(result.warnings, view.index, depth.too_far, " beyond 65535 steps", "larger");
+  warn(result.warnings, view.index, depth.too_near, " below half a step", "smaller");
   const std::string number = six_digits(view.index);
   result.files.push_back(
       {.name = "depth/" + number + ".png", .bytes = io::encode_gray_png(view.size, depth.steps)});
