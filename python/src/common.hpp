@@ -3,11 +3,15 @@
 
 #include <microtrace/microtrace.hpp>
 
+#include <atomic>
+#include <condition_variable>
 #include <functional>
+#include <mutex>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace microtrace::python {
@@ -51,10 +55,44 @@ auto result_unlocked(const F& f) {
   return *std::move(result);
 }
 
-/// Runs f() without the interpreter's lock, on a separate thread while this thread handles signals.
-/// After Ctrl-C, `cancel` returns true and f() should return soon. KeyboardInterrupt is then
-/// raised.
-void run_interruptible(const std::function<void(const std::function<bool()>& cancel)>& f);
+/// The thread that called a bound function and waits for its end.
+class Caller {
+ public:
+  /// True after Ctrl-C, and if the interpreter exits. The function should return soon.
+  [[nodiscard]] bool is_canceled() const { return is_canceled_; }
+
+  /// Calls the Python function `f` with a number, on the calling thread, and passes its result, or
+  /// null with an exception set, to `use`, which must not throw. Returns false without calling it
+  /// if the call of the bound function is canceled.
+  [[nodiscard]] bool call(const nb::object& f, double number,
+                          const std::function<void(PyObject* result)>& use);
+
+ private:
+  struct Errand {
+    const nb::object& f;
+    double number;
+    const std::function<void(PyObject*)>& use;
+    bool is_done = false;
+
+    void run();
+  };
+
+  friend void run_interruptible(const std::function<void(Caller&)>& f);
+  /// Waits for end(). Runs errands, and checks for signals in between.
+  void wait(class Unlocked& unlocked);
+  void end();
+
+  std::thread::id thread_ = std::this_thread::get_id();
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Errand* errand_ = nullptr;
+  bool is_done_ = false, is_interrupted_ = false, is_exiting_ = false;
+  std::atomic<bool> is_canceled_ = false;
+};
+
+/// Runs f() without the interpreter's lock, on a separate thread while this thread handles signals
+/// and what f() asks of it. Raises KeyboardInterrupt after Ctrl-C.
+void run_interruptible(const std::function<void(Caller& caller)>& f);
 
 /// Calls f(first, last) for blocks that cover [0, count), on up to `threads` threads, without the
 /// interpreter's lock. Ctrl-C stops it between blocks.

@@ -160,19 +160,16 @@ class Progress {
  public:
   /// The arguments must outlive this object. Threads without Python's lock must not copy
   /// `function`, because counting references needs the lock.
-  Progress(const nb::object& function, const std::function<bool()>& cancel)
-      : function_(function), cancel_(cancel) {}
+  Progress(const nb::object& function, Caller& caller) : function_(function), caller_(caller) {}
 
   bool operator()(double share) {
-    if (cancel_()) return false;
+    if (caller_.is_canceled()) return false;
     if (!function_.is_valid() || function_.is_none()) return true;
-    const nb::gil_scoped_acquire acquire;
-    try {
-      return !function_(share).is(nb::bool_(false));
-    } catch (nb::python_error&) {
-      failure_ = std::current_exception();
-      return false;
-    }
+    bool continues = false;
+    return caller_.call(function_, share, [&](PyObject* result) {
+      continues = result != nullptr && result != Py_False;
+      if (result == nullptr) failure_ = std::make_exception_ptr(nb::python_error());
+    }) && continues;
   }
 
   /// Rethrows the exception that the function threw, if any.
@@ -182,7 +179,7 @@ class Progress {
 
  private:
   const nb::object& function_;
-  const std::function<bool()>& cancel_;
+  Caller& caller_;
   std::exception_ptr failure_;
 };
 
@@ -191,15 +188,21 @@ class Moments {
  public:
   explicit Moments(nb::object function) : function_(std::move(function)) {}
 
+  Caller* caller = nullptr;  ///< set while a picture is rendered
+
   Moment operator()(double time) {
-    const nb::gil_scoped_acquire acquire;
-    try {
-      latest_ = nb::cast<nb::tuple>(function_(time));
-      return {.scene = nb::cast<const Prepared&>(latest_[0]).scene,
-              .camera = camera_from_python(latest_[1])};
-    } catch (...) {
-      failure_ = std::current_exception();
-    }
+    std::optional<Moment> moment;
+    const auto use = [&](PyObject* result) {
+      try {
+        if (result == nullptr) throw nb::python_error();
+        latest_ = nb::cast<nb::tuple>(nb::borrow(result));
+        moment = Moment{.scene = nb::cast<const Prepared&>(latest_[0]).scene,
+                        .camera = camera_from_python(latest_[1])};
+      } catch (...) {
+        failure_ = std::current_exception();
+      }
+    };
+    if (caller->call(function_, time, use) && moment) return *std::move(moment);
     throw Error(ErrorKind::canceled, "", "the shutter's function failed");
   }
 
@@ -260,8 +263,8 @@ double exposure_for(const Prepared& self, const nb::object& camera, const nb::di
   const Camera from = camera_from_python(camera);
   const ImageSize size = size_of(arguments);
   double exposure = 0;
-  run_interruptible([&](const std::function<bool()>& cancel) {
-    picture.options.progress = [&](double) { return !cancel(); };
+  run_interruptible([&](const Caller& caller) {
+    picture.options.progress = [&](double) { return !caller.is_canceled(); };
     exposure = automatic_exposure(self.scene, from, size, picture.options);
   });
   return exposure;
@@ -297,8 +300,9 @@ std::string render_into(const Prepared& self, const nb::object& camera_object,
   }
   std::optional<Film> film;
   const nb::object function = arguments["progress"];
-  run_interruptible([&](const std::function<bool()>& cancel) {
-    Progress progress(function, cancel);
+  run_interruptible([&](Caller& caller) {
+    Progress progress(function, caller);
+    if (moments) moments->caller = &caller;
     options.progress = std::ref(progress);
     try {
       if (has_samples)
@@ -312,8 +316,12 @@ std::string render_into(const Prepared& self, const nb::object& camera_object,
     }
   });
   if (!film) return "none";
-  for (const Target& target : arrays.targets) copy_channel(*film, target);
-  if (has_color) copy_colors(*film, nb::cast<Pixels<float>>(outputs["color"]));
+  std::optional<Pixels<float>> color;
+  if (has_color) color = nb::cast<Pixels<float>>(outputs["color"]);
+  run_unlocked([&] {
+    for (const Target& target : arrays.targets) copy_channel(*film, target);
+    if (color) copy_colors(*film, *color);
+  });
   return std::string(name_of(film->display.tone_map));
 }
 
@@ -332,13 +340,15 @@ Film film_of(const Pixels<const float>& color, double exposure, const std::strin
   Film film({.width = static_cast<std::uint32_t>(color.shape(1)),
              .height = static_cast<std::uint32_t>(color.shape(0))},
             count == 4 ? Film::Alpha::premultiplied : Film::Alpha::none);
-  const float* from = color.data();
-  for (std::uint32_t y = 0; y < film.size().height; ++y) {
-    for (std::uint32_t x = 0; x < film.size().width; ++x, from += count) {
-      film.at(x, y) = {from[0], from[1], from[2]};
-      if (count == 4) film.alpha_at(x, y) = from[3];
+  run_unlocked([&] {
+    const float* from = color.data();
+    for (std::uint32_t y = 0; y < film.size().height; ++y) {
+      for (std::uint32_t x = 0; x < film.size().width; ++x, from += count) {
+        film.at(x, y) = {from[0], from[1], from[2]};
+        if (count == 4) film.alpha_at(x, y) = from[3];
+      }
     }
-  }
+  });
   film.display.exposure = exposure;
   film.display.tone_map = *map;
   const std::size_t pixel_count = color.shape(0) * color.shape(1);
@@ -353,10 +363,12 @@ Film film_of(const Pixels<const float>& color, double exposure, const std::strin
         film.channels.push_back({.name = names[k], .values = std::move(values)});
       }
     };
-    if (quantity.is_id())
-      add(static_cast<const std::uint32_t*>(pixels.data()));
-    else
-      add(static_cast<const float*>(pixels.data()));
+    run_unlocked([&] {
+      if (quantity.is_id())
+        add(static_cast<const std::uint32_t*>(pixels.data()));
+      else
+        add(static_cast<const float*>(pixels.data()));
+    });
   }
   return film;
 }
@@ -392,10 +404,11 @@ void denoise(const Pixels<float>& color, const nb::dict& features, bool has_lens
   Film film = film_of(Pixels<const float>(color), 0, "none", features);
   film.has_lens = has_lens;
   film.has_ground = has_ground;
-  run_interruptible([&](const std::function<bool()>& cancel) {
-    Denoiser().denoise(film, {.threads = threads, .progress = [&](double) { return !cancel(); }});
+  run_interruptible([&](const Caller& caller) {
+    Denoiser().denoise(
+        film, {.threads = threads, .progress = [&](double) { return !caller.is_canceled(); }});
   });
-  copy_colors(film, color);
+  run_unlocked([&] { copy_colors(film, color); });
 }
 
 nb::object frame_scene(const Prepared& self, double azimuth, double elevation, double fov,

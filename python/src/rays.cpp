@@ -47,10 +47,11 @@ std::string explain_ray(const Prepared& self, const AnyArray& array, const nb::o
   std::vector<Ray> rays;
   Rays(array, t_min, t_max, self.scene.scene().origin).get(0, 1, rays);
   std::string json;
-  run_interruptible([&](const std::function<bool()>& cancel) {
-    json = explanation_json(
-        explain_in_scene(self.scene, rays.front(),
-                         {.max_hits = max_hits, .max_misses = max_misses, .cancel = cancel}));
+  run_interruptible([&](const Caller& caller) {
+    json = explanation_json(explain_in_scene(
+        self.scene, rays.front(), {.max_hits = max_hits, .max_misses = max_misses, .cancel = [&] {
+                                     return caller.is_canceled();
+                                   }}));
   });
   return json;
 }
@@ -62,19 +63,19 @@ struct AllHits {
 };
 
 /// Options for a query that Ctrl-C can stop.
-QueryOptions cancelable(unsigned threads, const std::function<bool()>& cancel) {
-  return {.threads = threads, .progress = [&cancel](double) { return !cancel(); }};
+QueryOptions cancelable(unsigned threads, const Caller& caller) {
+  return {.threads = threads, .progress = [&caller](double) { return !caller.is_canceled(); }};
 }
 
 /// Calls f(rays, first, options) for consecutive pieces of the rays, in scene coordinates.
 template <class F>
 void for_each_piece(const Rays& source, unsigned threads, const F& f) {
   constexpr std::size_t kPiece = 1 << 20;
-  run_interruptible([&](const std::function<bool()>& cancel) {
+  run_interruptible([&](const Caller& caller) {
     std::vector<Ray> rays;
     for (std::size_t first = 0; first < source.size(); first += kPiece) {
       source.get(first, std::min(first + kPiece, source.size()), rays);
-      f(rays, first, cancelable(threads, cancel));
+      f(rays, first, cancelable(threads, caller));
     }
   });
 }

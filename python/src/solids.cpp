@@ -22,8 +22,9 @@ std::span<const DVec3> span_of(const Points& points) {
 
 template <class F>
 void query(unsigned threads, const F& f) {
-  run_interruptible([&](const std::function<bool()>& cancel) {
-    f(QueryOptions{.threads = threads, .progress = [&cancel](double) { return !cancel(); }});
+  run_interruptible([&](const Caller& caller) {
+    f(QueryOptions{.threads = threads,
+                   .progress = [&caller](double) { return !caller.is_canceled(); }});
   });
 }
 

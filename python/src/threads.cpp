@@ -8,12 +8,15 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cxxabi.h>
 #include <exception>
 #include <mutex>
 #include <new>
 #include <pthread.h>
 #include <string>
 #include <thread>
+#include <unistd.h>
+#include <utility>
 
 namespace microtrace::python {
 namespace {
@@ -74,6 +77,21 @@ void forget_calls() {
   throw nb::python_error();
 }
 
+/// Calls f(), in which the interpreter may end this thread if it exits. The thread then waits for
+/// the end of the process instead, because nothing in C++ expects to be left in this way.
+template <class F>
+void stay_alive(const F& f) {
+#ifdef __GLIBCXX__
+  try {
+    f();
+  } catch (const abi::__forced_unwind&) {
+    while (true) pause();
+  }
+#else
+  f();
+#endif
+}
+
 /// Throws Error (limit) if rays may overflow the calling thread's stack.
 void require_stack() {
   if (free_stack() >= kStackSize) return;
@@ -85,6 +103,30 @@ void require_stack() {
 
 }  // namespace
 
+/// Releases the interpreter's lock while it exists.
+class Unlocked {
+ public:
+  Unlocked() : state_(PyEval_SaveThread()) {}
+  ~Unlocked() { lock(); }
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+  /// Calls f() with the lock.
+  template <class F>
+  void with_lock(const F& f) {
+    lock();
+    f();
+    state_ = PyEval_SaveThread();
+  }
+
+ private:
+  void lock() {
+    stay_alive([this] { PyEval_RestoreThread(state_); });
+  }
+
+  PyThreadState* state_;
+};
+
 Call::Call() {
   if (!calls.begin()) end_thread();
 }
@@ -95,7 +137,7 @@ Call::~Call() {
 
 void bind_threads(nb::module_& module) {
   module.def("_cancel_all", [] {
-    const nb::gil_scoped_release release;
+    const Unlocked unlocked;
     calls.cancel();
   });
   nb::module_::import_("atexit").attr("register")(module.attr("_cancel_all"));
@@ -104,7 +146,7 @@ void bind_threads(nb::module_& module) {
 
 void run_unlocked(const std::function<void()>& f) {
   const Call call;
-  const nb::gil_scoped_release release;
+  const Unlocked unlocked;
   if (free_stack() >= kStackSize) return f();
   std::exception_ptr failure;
   if (start_threads(1, [&] {
@@ -118,69 +160,104 @@ void run_unlocked(const std::function<void()>& f) {
   if (failure) std::rethrow_exception(failure);
 }
 
-void run_interruptible(const std::function<void(const std::function<bool()>&)>& f) {
+void Caller::Errand::run() {
+  PyObject *argument = PyFloat_FromDouble(number), *result = nullptr;
+  if (argument != nullptr) stay_alive([&] { result = PyObject_CallOneArg(f.ptr(), argument); });
+  use(result);
+  Py_XDECREF(result);
+  Py_XDECREF(argument);
+  is_done = true;
+}
+
+bool Caller::call(const nb::object& f, double number, const std::function<void(PyObject*)>& use) {
+  Errand errand{.f = f, .number = number, .use = use};
+  if (std::this_thread::get_id() == thread_) {  // the system refused another thread
+    if (is_canceled()) return false;
+    const nb::gil_scoped_acquire acquire;
+    errand.run();
+    return true;
+  }
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return errand_ == nullptr; });
+  errand_ = &errand;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return errand_ != &errand; });
+  return errand.is_done;
+}
+
+void Caller::wait(Unlocked& unlocked) {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait_for(lock, kPatience, [&] { return is_done_ || errand_ != nullptr; });
+    if (is_done_) return;
+    Errand* const errand = errand_;
+    lock.unlock();
+    if (calls.is_canceled()) is_canceled_ = is_exiting_ = true;
+    if (!is_canceled_) {
+      unlocked.with_lock([&] {
+        if (errand != nullptr) errand->run();
+        is_interrupted_ = PyErr_CheckSignals() != 0;
+      });
+      if (is_interrupted_) is_canceled_ = true;
+    }
+    lock.lock();
+    if (errand == nullptr) continue;
+    errand_ = nullptr;
+    changed_.notify_all();
+  }
+}
+
+void Caller::end() {
+  const std::scoped_lock lock(mutex_);
+  is_done_ = true;
+  changed_.notify_all();
+}
+
+void run_interruptible(const std::function<void(Caller&)>& f) {
   const Call call;
-  std::atomic<bool> is_canceled = false;
-  const std::function<bool()> cancel = [&] { return is_canceled.load(); };
-  std::mutex mutex;
-  std::condition_variable ended;
-  bool is_done = false;
+  Caller caller;
   std::exception_ptr failure;
   const auto work = [&] {
     try {
-      f(cancel);
+      f(caller);
     } catch (...) {
       failure = std::current_exception();
     }
-    const std::scoped_lock lock(mutex);
-    is_done = true;
-    ended.notify_one();
+    caller.end();
   };
-  bool is_interrupted = false, is_exiting = false;
   {
-    const nb::gil_scoped_release release;
+    Unlocked unlocked;
     const auto threads = start_threads(1, work);
     if (threads.empty()) {
       require_stack();
       work();
     }
-    std::unique_lock lock(mutex);
-    while (!ended.wait_for(lock, kPatience, [&] { return is_done; })) {
-      lock.unlock();
-      if (calls.is_canceled()) {
-        is_canceled = is_exiting = true;
-      } else if (!is_interrupted) {
-        const nb::gil_scoped_acquire acquire;
-        is_interrupted = PyErr_CheckSignals() != 0;
-        if (is_interrupted) is_canceled = true;
-      }
-      lock.lock();
-    }
+    caller.wait(unlocked);
   }
-  if (is_interrupted) throw nb::python_error();
-  if (is_exiting) end_thread();
+  if (caller.is_interrupted_) throw nb::python_error();
+  if (caller.is_exiting_) end_thread();
   if (failure) std::rethrow_exception(failure);
 }
 
 void for_each_block(std::size_t count, unsigned threads,
                     const std::function<void(std::size_t, std::size_t)>& f) {
   SharedRange blocks(count, kBlock);
-  const auto work = [&](const std::function<bool()>& cancel) {
+  const auto work = [&](const Caller* caller) {
     const FloatEnvironment environment;
     blocks.take([&](std::size_t first, std::size_t last) {
-      if (cancel()) return blocks.end();
+      if (caller != nullptr && caller->is_canceled()) return blocks.end();
       f(first, last);
     });
   };
   const std::size_t block_count = (count + kBlock - 1) / kBlock;
   if (block_count <= 1) {
-    run_unlocked([&] { work([] { return false; }); });
+    run_unlocked([&] { work(nullptr); });
   } else {
-    run_interruptible([&](const std::function<bool()>& cancel) {
+    run_interruptible([&](const Caller& caller) {
       const std::size_t wanted = thread_count(threads);
       const auto helpers = static_cast<unsigned>(std::min(wanted, block_count) - 1);
-      const auto started = start_threads(helpers, [&] { work(cancel); });
-      work(cancel);
+      const auto started = start_threads(helpers, [&] { work(&caller); });
+      work(&caller);
     });
   }
   blocks.rethrow();

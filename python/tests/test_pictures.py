@@ -7,6 +7,7 @@ import platform
 import struct
 import subprocess
 import sys
+import threading
 import types
 import warnings
 
@@ -412,6 +413,28 @@ def test_progress_bar_without_standard_error(monkeypatch):
     mt.render(mt.load(KNOT), size=(8, 8), spp=1, progress=True)
 
 
+def test_functions_are_called_on_the_calling_thread():
+    prepared, threads = mt.load(KNOT).prepare(), set()
+
+    def moment(time):
+        threads.add(threading.get_ident())
+        return prepared, mt.frame(prepared.scene)
+
+    camera = mt.frame(prepared.scene)
+    shutter = mt.Shutter(moment, 0, 1, times=2)
+
+    def progress(share):
+        threads.add(threading.get_ident())
+
+    mt.render(prepared, camera, SIZE, spp=4, shutter=shutter, progress=progress)
+    assert threads == {threading.get_ident()}
+
+
+def test_interrupt_of_a_progress_function_that_blocks():
+    with interrupted_after(0.5):
+        mt.render(mt.load(KNOT), size=SIZE, spp=4, progress=lambda _: threading.Event().wait())
+
+
 def test_interrupt():
     prepared = mt.load(KNOT).prepare()
     with interrupted_after(0.5):
@@ -456,6 +479,23 @@ for _ in range(8):
         sys.exit()
     assert os.waitpid(child, 0)[1] == 0
 assert time.monotonic() - start < 30  # each of them would wait 5 s for the thread
+""")
+
+
+def test_exit_while_a_progress_function_runs():
+    # It runs for longer than the interpreter waits.
+    run_program(f"""
+import threading
+import microtrace as mt
+started = threading.Event()
+def progress(share):
+    started.set()
+    while True:
+        pass
+def render():
+    mt.render(mt.load({str(KNOT)!r}), size=(64, 48), spp=4, progress=progress)
+threading.Thread(target=render, daemon=True).start()
+started.wait()
 """)
 
 

@@ -154,6 +154,23 @@ def test_pages_leave_nothing_behind():
     assert resources() == before
 
 
+def test_forked_processes_do_not_keep_the_port():
+    prepared = triangle().prepare()
+    with prepared.view() as view:
+        port = view.port
+        reader, writer = os.pipe()
+        if (child := os.fork()) == 0:
+            os.close(writer)
+            os.read(reader, 1)  # until the parent closes its end
+            os._exit(0)
+        os.close(reader)
+        send(view, "POST", "scene")
+    with prepared.view(port=port) as again:
+        send(again, "POST", "scene")
+    os.close(writer)
+    os.waitpid(child, 0)
+
+
 def test_python_exits_while_a_page_is_served():
     code = (
         "import microtrace as mt, urllib.request\n"

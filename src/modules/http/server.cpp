@@ -5,6 +5,8 @@
 #include <chrono>
 #include <fcntl.h>
 #include <memory>
+#include <sys/socket.h>
+#include <unistd.h>
 #include <utility>
 
 namespace microtrace::http {
@@ -27,10 +29,16 @@ Server::Server(const MicrotraceHttpHost& host)
       token_(host.token),
       allowed_host_(host.allowed_host),
       acceptor_(context_, tcp::endpoint(asio::ip::address_v4::loopback(), host.port)),
+      process_(::getpid()),
       timer_(context_),
       retry_(context_) {
   close_on_exec(acceptor_);
   accept();
+}
+
+Server::~Server() {
+  // Processes that were forked meanwhile have the socket, too, and would keep the port.
+  if (::getpid() == process_) ::shutdown(acceptor_.native_handle(), SHUT_RDWR);
 }
 
 void Server::run() {

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <list>
 #include <string>
+#include <sys/types.h>
 
 namespace microtrace::http {
 
@@ -21,6 +22,9 @@ class Server {
  public:
   /// Binds to 127.0.0.1. Throws boost::system::system_error.
   explicit Server(const MicrotraceHttpHost& host);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
 
   [[nodiscard]] std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
@@ -56,6 +60,7 @@ class Server {
   Quiet quiet_;
   boost::asio::io_context context_{1};
   boost::asio::ip::tcp::acceptor acceptor_;
+  pid_t process_;  ///< that listens
   boost::asio::steady_timer timer_, retry_;
 };
 
