@@ -109,7 +109,8 @@ TEST(Bop, FarDepthsAreStoredAsZeroWithAWarning) {
   const RenderedView view(scene, pinhole(), kBopSize);
   const BopAnnotations bop = bop_of(view, scene);  // 100000 steps
   ASSERT_EQ(bop.warnings.size(), 1U);
-  EXPECT_THAT(bop.warnings[0].message, testing::HasSubstr("48 depths exceed"));
+  EXPECT_THAT(bop.warnings[0].message,
+              testing::HasSubstr("view 0 stores 48 depths beyond 65535 steps"));
   EXPECT_EQ(std::ranges::count(samples_of<std::uint16_t>(bytes_of(bop, "depth/000000.png")), 0),
             160);
   EXPECT_EQ(joined(BopFile::scene_gt_info, {bop.part})["0"][0]["px_count_valid"], 0);
