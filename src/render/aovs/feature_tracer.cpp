@@ -2,7 +2,6 @@
 
 #include "render/lighting/lighting.hpp"
 #include "render/media/beer_lambert.hpp"
-#include "render/shading/points/normals.hpp"
 #include "scene/math/luminance.hpp"
 
 #include <algorithm>
@@ -26,18 +25,6 @@ constexpr float kFaint = 0.05F;
 /// Reduces bright colors to [0, 1] and keeps their hue.
 Vec3 bounded(const Vec3& color) {
   return color / std::max({1.0F, color.x, color.y, color.z});
-}
-
-Vec3 shading_normal(const ShadingPoint& point, const Vec3& d) {
-  const TextureSlot& slot = (*point.look)[MaterialTexture::normal];
-  const float side = point.at.front ? 1.0F : -1.0F;
-  Vec3 n = point.at.ns;
-  if (slot.map != nullptr) {
-    const Vec4 tangent = point.at.tangent();
-    n = mapped_normal<1>(n, {Vec3(tangent), tangent.w}, Vec3(slot.at(point)),
-                         point.look->material->normal_scale);
-  }
-  return usable_normal<1>(side * n, side * point.at.n, -d);
 }
 
 /// The paths by which light reaches a smooth surface, and the fraction of light on each.
@@ -144,7 +131,7 @@ void FeatureTracer::step(std::size_t i, Hit hit) {
                           .point = point,
                           .parameters = input.parameters,
                           .layers = input.layers,
-                          .n = shading_normal(point, d),
+                          .n = Shading::normal(point, d),
                           .beyond = beyond.media};
       Path here = path;
       here.share *= coverage;

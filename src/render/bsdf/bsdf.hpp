@@ -51,6 +51,14 @@ class Bsdf {
     return evaluate(wi, base_.half_vector(wi));
   }
 
+  /// The fraction of light that crosses a thin wall toward wo in a straight line if the wall is
+  /// smooth.
+  [[nodiscard]] V crossing_light() const {
+    V value = base_.crossing_light();
+    if (features_.is_spec && features_.layers != LayerSide::none) spec_absorb(-wo_, value);
+    return value;
+  }
+
   struct Sample {
     V wi;  ///< zero if the sample is absorbed
     Evaluation<N> evaluation;

@@ -35,6 +35,14 @@ struct Parameters {
   std::optional<ThinFilm<1>> film{};
 };
 
+/// The parameters of a surface that reflects, scatters and absorbs the light as a dielectric with
+/// these parameters does, but transmits none.
+[[nodiscard]] inline Parameters without_transmission(Parameters p) {
+  p.base_color *= 1 - p.transmission;
+  p.transmission = 0;
+  return p;
+}
+
 /// Layers above a surface. By default, there are none.
 struct Layers {
   Vec3 sheen{0};              ///< color, linear Rec. 709, each in [0, 1] (KHR_materials_sheen)

@@ -12,6 +12,9 @@
 
 namespace microtrace::bsdf {
 
+/// The least z of wo. Rounding may put wo below the surface.
+inline constexpr float kGrazingCosine = 1e-5F;
+
 /// See Parameters and Layers for the meaning of the members.
 template <int N>
 struct Surface {

@@ -51,8 +51,7 @@ class Vertices {
   void scatter(const ScatterSetup& setup, const bsdf::Surface<N>& surface,
                const bsdf::Coating<N>* coating) {
     V wo = frame_.to_local(-unit<N>(load3<N>(lanes_.d, i_)));
-    wo.z = larger_of(wo.z, all<N>(1e-5F));  // clamped, because rounding may put it below the
-                                            // surface
+    wo.z = larger_of(wo.z, all<N>(bsdf::kGrazingCosine));
     const Bsdf bsdf(features_, surface, coating, wo);
     evaluate_light(setup, bsdf);
     sample_direction(setup, bsdf);

@@ -1,6 +1,7 @@
 #include "render/lighting/ground_shadows.hpp"
 
 #include "render/shading/transmittance.hpp"
+#include "scene/math/luminance.hpp"
 
 #include <cmath>
 #include <limits>
@@ -24,17 +25,16 @@ void GroundShadows::add(const Vec3& p, const Vec3& to_light, bool is_far, std::s
 }
 
 std::uint64_t GroundShadows::find_occlusions(const Bvh& bvh, const Shading& shading,
-                                             Backfaces backfaces) {
-  const bool passes_backs = backfaces == Backfaces::pass;
-  const bool may_pass = !shading.all_cover() || (passes_backs && shading.has_open_backs());
+                                             const PathOptions& options) {
+  const bool may_pass = !shading.all_cover() || (passes_backs(options) && shading.has_open_backs());
   std::array<bool, kRandomBatch> occluded;
   bvh.occluded(std::span(rays_).first(count_), std::span(occluded).first(count_));
   std::uint64_t beyond = 0;
   for (std::size_t i = 0; i < count_; ++i) {
     occlusions_[i] = occluded[i] ? 1 : 0;
     if (occluded[i] && may_pass) {
-      occlusions_[i] = 1 - transmittance(bvh, shading, passes_backs, rays_[i],
-                                         bvh.intersect(rays_[i]), std::nullopt, beyond);
+      occlusions_[i] = 1 - luminance(transmittance(bvh, shading, options, rays_[i],
+                                                   bvh.intersect(rays_[i]), std::nullopt, beyond));
     }
   }
   return beyond;

@@ -30,16 +30,16 @@ class GroundShadows {
   /// Traces the rays, calls darken(slot, occlusion) for each ray with the occluded fraction of its
   /// light, and removes the rays. Returns the number of calls of Bvh::next.
   template <class Darken>
-  std::uint64_t trace(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
+  std::uint64_t trace(const Bvh& bvh, const Shading& shading, const PathOptions& options,
                       const Darken& darken) {
-    const std::uint64_t beyond = find_occlusions(bvh, shading, backfaces);
+    const std::uint64_t beyond = find_occlusions(bvh, shading, options);
     for (std::size_t i = 0; i < count_; ++i) darken(slots_[i], occlusions_[i]);
     count_ = 0;
     return beyond;
   }
 
  private:
-  std::uint64_t find_occlusions(const Bvh& bvh, const Shading& shading, Backfaces backfaces);
+  std::uint64_t find_occlusions(const Bvh& bvh, const Shading& shading, const PathOptions& options);
 
   std::size_t count_ = 0;
   std::array<Ray, kRandomBatch> rays_;

@@ -8,6 +8,7 @@
 #include "render/lanes/ray_arrays.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/shading/transmittance.hpp"
+#include "scene/math/luminance.hpp"
 #include "scene/support.hpp"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ bool SkyVisibility::finds_enclosed() const {
 
 float SkyVisibility::light_along(const Ray& ray, const std::optional<Hit>& hit) const {
   std::uint64_t beyond = 0;
-  return transmittance(bvh_, shading_, true, ray, hit, std::nullopt, beyond);
+  return luminance(transmittance(bvh_, shading_, PathOptions{}, ray, hit, std::nullopt, beyond));
 }
 
 std::size_t SkyVisibility::index(const Vec3& p, const Vec3& n) const {
@@ -189,7 +190,7 @@ class SkyVisibility::Probe {
   /// earlier calls.
   void trace(std::uint32_t key, std::uint32_t round) {
     set_rays(key, round);
-    LightBlockers blockers(tracer_, visibility_.shading_, true);
+    LightBlockers blockers(tracer_, visibility_.shading_, PathOptions{});
     const RayColumns rays = columns_of(rays_, count_);
     tracer_.any(rays, blockers.filter(), std::span(hits_).first(count_));
     for (std::size_t i = 0; i < count_; ++i) {

@@ -17,9 +17,8 @@ void Shading::find_masked() {
     Entry& entry = entries_[run];
     const Material& material = *looks_[entry.look].material;
     // Bodies that enclose a medium may hide each other's surfaces, so each hit matters.
-    if (entry.mesh == nullptr || material.alpha_mode == AlphaMode::opaque ||
-        encloses_medium(material))
-      continue;
+    const bool is_solid = material.alpha_mode == AlphaMode::opaque && !looks_[entry.look].is_clear;
+    if (entry.mesh == nullptr || is_solid || encloses_medium(material)) continue;
     const bool blended = blends(looks_[entry.look]);
     has_blended_ |= blended;
     for_each_mesh(run, [&](const PlacedMesh& mesh, PrimitiveId first_id) {

@@ -27,6 +27,7 @@ ValueInterval bounds_of(const std::array<double, 4>& values, std::size_t count, 
 
 /// The opacity where the base color's alpha is in this interval.
 Opacity opacity_within(const Material& material, const ValueInterval& alpha) {
+  if (material.alpha_mode == AlphaMode::opaque) return Opacity::visible;
   const double lo = std::max(alpha.lo - kAlphaUnderflow, 0.0);
   if (material.alpha_mode == AlphaMode::mask) {
     if (lo >= material.alpha_cutoff) return Opacity::visible;

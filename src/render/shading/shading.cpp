@@ -1,6 +1,6 @@
 #include "render/shading/shading.hpp"
 
-#include "render/bsdf/base_surface.hpp"
+#include "render/bsdf/ggx.hpp"
 #include "render/shading/texture_slots.hpp"
 #include "scene/math/luminance.hpp"
 
@@ -15,22 +15,6 @@ namespace microtrace {
 namespace {
 
 const Material kNoMaterial{};
-
-/// Reflectance at normal incidence of a dielectric with this index of refraction in air. 0 stands
-/// for an infinite index.
-float head_on_reflectance(float ior) {
-  if (ior == 0) return 1;
-  const float r = (ior - 1) / (ior + 1);
-  return r * r;
-}
-
-/// The reflectance of the boundary between two media. Schlick's term approaches 1 at the horizon
-/// for any indices of refraction. Between nearly equal indices, which reflect hardly anything at
-/// nearly all angles, it is reduced in proportion to the reflectance at normal incidence.
-bsdf::Schlick<1> reflectance_between(const Medium& inside, const Medium& outside) {
-  const float f0 = head_on_reflectance(inside.ior / outside.ior);
-  return {.f0 = Vec3(f0), .f90 = std::min(50 * f0, 1.0F)};
-}
 
 bool transmits(const Material& m) {
   return m.transmission && m.transmission->factor > 0;
@@ -57,10 +41,19 @@ bool has_map(const TextureSlot& slot) {
   return slot.map != nullptr;
 }
 
+/// True if all light that the surface transmits goes straight on. The base of a metal isn't
+/// transmitted, but reflected.
+bool is_clear(const Material& m) {
+  return transmits(m) && !transmits_diffusely(m) && !encloses_medium(m) && !is_emissive(m) &&
+         !m.unlit && !m.anisotropy && !m.specular_glossiness && m.metallic == 0 &&
+         m.roughness * m.roughness <= bsdf::kLeastAlpha;
+}
+
 void set_opacity(TexturedMaterial& look) {
   const AlphaMode mode = look.material->alpha_mode;
   look.depends_on_alpha = !is_thin_glass(*look.material) && !look.has_open_opaque_parts;
-  look.is_opaque_if_visible = look.depends_on_alpha && mode != AlphaMode::blend;
+  look.is_clear = is_clear(*look.material);
+  look.is_opaque_if_visible = look.depends_on_alpha && mode != AlphaMode::blend && !look.is_clear;
   look.is_opaque = look.is_opaque_if_visible && mode == AlphaMode::opaque;
 }
 
@@ -112,7 +105,8 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTexture
     const ShadingPoint anywhere{.at = {}, .look = &white};
     look.constant_but_textures.emplace(parameters(anywhere, 3, nullptr), layers(anywhere));
     const bool may_be_dark = !look.is_emissive() || look[MaterialTexture::emissive].map != nullptr;
-    look.is_simple = !material.unlit && may_be_dark && !material.specular_glossiness;
+    look.is_simple =
+        !material.unlit && may_be_dark && !material.specular_glossiness && !look.is_clear;
     look.varies = look.is_textured || material.alpha_mode != AlphaMode::opaque;
     if (look.varies) set_kernel_surfaces(look);
   };
@@ -242,53 +236,6 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
   if (color == Vec3(0)) return unlit;
   return unlit +
          glm::min(color, Vec3(kBrightest)) * Vec3(look[MaterialTexture::emissive].at(point));
-}
-
-bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel,
-                                     const Medium* outside) {
-  const TexturedMaterial& look = *point.look;
-  const Material& m = *look.material;
-  const Vec4 texel = look[MaterialTexture::metallic_roughness].at(point);
-  const bsdf::BaseSurface<1> base(Vec3(base_color(point)), m, texel.y, texel.z);
-  bsdf::Parameters p{
-      .base_color = base.color, .metallic = base.metallic, .roughness = base.roughness};
-  if (m.ior != 1.5F) p.dielectric.f0 = Vec3(head_on_reflectance(m.ior));
-  if (outside != nullptr && refracts(m)) p.dielectric = reflectance_between(look.medium, *outside);
-  if (const auto& s = m.specular) {
-    const float factor = s->factor * look[MaterialTexture::specular].at(point).w;
-    const Vec3 color = s->color * Vec3(look[MaterialTexture::specular_color].at(point));
-    p.dielectric.f0 = glm::min(p.dielectric.f0 * color, Vec3(1)) * factor;
-    p.dielectric.f90 *= factor;
-  }
-  if (const auto& archived = m.specular_glossiness) {
-    const Vec4 t = look[MaterialTexture::specular_glossiness].at(point);
-    p.metallic = 0;
-    p.roughness = 1 - archived->glossiness * t.w;
-    p.dielectric = {.f0 = archived->specular * Vec3(t), .f90 = 1};
-  }
-  if (m.anisotropy) add_anisotropy(point, p);
-  if (const auto& t = m.transmission) {
-    p.transmission = t->factor * look[MaterialTexture::transmission].at(point).x;
-    if (refracts(m)) {
-      float ior = look.medium.ior_of(channel);
-      if (outside != nullptr) ior /= outside->ior_of(channel);
-      p.eta = point.at.front ? ior : 1 / ior;
-    }
-  }
-  if (const auto& i = m.iridescence) {
-    const bsdf::ThinFilm<1> film{
-        .share = i->factor * look[MaterialTexture::iridescence].at(point).x,
-        .ior = i->ior,
-        .thickness = glm::mix(i->thickness_minimum, i->thickness_maximum,
-                              look[MaterialTexture::iridescence_thickness].at(point).y)};
-    if (film.share > 0 && film.thickness > 0) p.film = film;
-  }
-  if (const auto& d = m.diffuse_transmission) {
-    p.diffuse_transmission = d->factor * look[MaterialTexture::diffuse_transmission].at(point).w;
-    p.diffuse_transmission_color =
-        d->color * Vec3(look[MaterialTexture::diffuse_transmission_color].at(point));
-  }
-  return p;
 }
 
 }  // namespace microtrace

@@ -12,6 +12,7 @@
 #include "simd/vector_types.hpp"
 
 #include <microtrace/material.hpp>
+#include <microtrace/path.hpp>
 #include <microtrace/scene.hpp>
 
 #include <array>
@@ -107,6 +108,16 @@ class Shading {
     return is_in(triangles_with_open_backs(), id);
   }
 
+  /// The unit shading normal on the side from which a ray in direction d arrives.
+  [[nodiscard]] static Vec3 normal(const ShadingPoint& point, const Vec3& d);
+  /// The fraction of the light that crosses a clear surface at the point, opposite to d. The
+  /// surface reflects, scatters or absorbs the rest.
+  [[nodiscard]] Vec3 crossing_light(const ShadingPoint& point, const Vec3& d,
+                                    BsdfModel model) const;
+  /// The fraction of the light that arrives at the ray's origin through the surface, in a straight
+  /// line. The ray must not be a camera ray.
+  [[nodiscard]] Vec3 transmittance(const ShadingPoint& point, const Vec3& d, BsdfModel model) const;
+
   /// The triangles on which is_transparent() may be true, and all for which is_blended() is.
   [[nodiscard]] BitPages masked() const { return masked_.pages(); }
   [[nodiscard]] bool is_masked(PrimitiveId id) const { return is_in(masked(), id); }
@@ -115,12 +126,14 @@ class Shading {
   /// The opacity that alpha gives one of these triangles where the ray hits it. The ray must not be
   /// a camera ray.
   [[nodiscard]] float masked_coverage(const Ray& ray, PrimitiveId id) const;
+  /// transmittance() of one of these triangles.
+  [[nodiscard]] Vec3 masked_transmittance(const Ray& ray, PrimitiveId id, BsdfModel model) const;
   /// True if this opacity is 0.
   [[nodiscard]] bool is_transparent(const Ray& ray, PrimitiveId id) const {
     return masked_coverage(ray, id) == 0;
   }
-  /// True if one of these triangles blends with what is behind it. If so, the light that passes it
-  /// depends only on masked_coverage(), unless it arrives through an open back.
+  /// True if one of these triangles is clear or blends with what is behind it. If so, the light
+  /// that passes it depends only on masked_transmittance(), unless it arrives through an open back.
   [[nodiscard]] bool is_blended(PrimitiveId id) const { return blends(look_of(id)); }
   /// True if there are such triangles.
   [[nodiscard]] bool has_blended() const { return has_blended_; }
@@ -213,6 +226,7 @@ class Shading {
   void find_masked();
   [[nodiscard]] static float alpha_coverage(const ShadingPoint& point);
   [[nodiscard]] static bool blends(const TexturedMaterial& look) {
+    if (look.is_clear) return !look.has_open_opaque_parts;
     return look.depends_on_alpha && look.material->alpha_mode == AlphaMode::blend;
   }
   struct MaskedHit;

@@ -85,7 +85,10 @@ struct TexturedMaterial {
   /// True if coverage() depends only on alpha for rays other than camera rays, and there are no
   /// open opaque parts.
   bool depends_on_alpha = false;
-  /// True if coverage() is also 0 or 1 everywhere.
+  /// True if the surface is a thin wall that is too smooth to spread the light that crosses it.
+  /// Light then crosses it in straight lines, and its BSDF only reflects.
+  bool is_clear = false;
+  /// True if coverage() is also 0 or 1 everywhere, and the surface isn't clear.
   bool is_opaque_if_visible = false;
   /// True if coverage() is also 1 everywhere.
   bool is_opaque = false;

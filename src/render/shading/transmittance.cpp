@@ -23,25 +23,25 @@ bool hits_beside(const Shading& shading, const Ray& ray, const Hit& hit, Primiti
 
 }  // namespace
 
-float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
-                    std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
-                    std::uint64_t& beyond, AroundRay around) {
-  std::vector<std::pair<PrimitiveId, float>> factors;
+Vec3 transmittance(const Bvh& bvh, const Shading& shading, const PathOptions& options,
+                   const Ray& ray, std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
+                   std::uint64_t& beyond, AroundRay around) {
+  std::vector<std::pair<PrimitiveId, Vec3>> factors;
   while (hit && hit->id != target && !(target && hits_beside(shading, ray, *hit, *target))) {
     const ShadingPoint point = shading.point(ray, *hit);
     const Medium* own = Shading::enclosed_medium(point);
     // If the ray hits a front, the light comes from behind it.
     if (NestedMediaTable::is_hidden(own, point.at.front, around.here))
       around.here = around.table->without(around.here, *own);
-    else if (!(passes_backs && Shading::lets_light_in(point)))
-      factors.emplace_back(hit->id, 1 - shading.coverage(point, false));
-    if (!factors.empty() && factors.back().second == 0) return 0;
+    else if (!(passes_backs(options) && Shading::lets_light_in(point)))
+      factors.emplace_back(hit->id, shading.transmittance(point, ray.d, options.bsdf));
+    if (!factors.empty() && factors.back().second == Vec3(0)) return Vec3(0);
     hit = bvh.next(ray, *hit);
     ++beyond;
   }
   // In the order of PassedTriangles.
-  std::ranges::sort(factors);
-  float product = 1;
+  std::ranges::sort(factors, {}, &std::pair<PrimitiveId, Vec3>::first);
+  Vec3 product(1);
   for (const auto& [id, factor] : factors) product *= factor;
   return product;
 }

@@ -4,6 +4,7 @@
 #include "render/shading/shading.hpp"
 
 #include <microtrace/bvh.hpp>
+#include <microtrace/path.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,15 +22,15 @@ struct AroundRay {
   const NestedMedia* here = nullptr;  ///< null for a vacuum
 };
 
-/// The blended triangles that the query of a ray has passed, in ascending order, so that the
-/// product of their transmittances doesn't depend on the order in which they were found.
+/// The blended and clear triangles that the query of a ray has passed, in ascending order, so that
+/// the product of their transmittances doesn't depend on the order in which they were found.
 class PassedTriangles {
  public:
   static constexpr std::uint32_t kMost = 16;
 
   void clear() { count_ = 0; }
   /// Adds a triangle, unless it is known. If there are too many, they are no longer complete.
-  void add(PrimitiveId id, float coverage) {
+  void add(PrimitiveId id, const Vec3& transmittance) {
     const std::uint32_t known = std::min(count_, kMost);
     const auto end = ids_.begin() + known, at = std::lower_bound(ids_.begin(), end, id);
     if (at != end && *at == id) return;
@@ -39,14 +40,14 @@ class PassedTriangles {
     std::copy_backward(at, end, end + 1);
     std::copy_backward(factor, factors_.begin() + known, factors_.begin() + known + 1);
     *at = id;
-    *factor = 1 - coverage;
+    *factor = transmittance;
   }
   [[nodiscard]] bool is_complete() const { return count_ <= kMost; }
   /// The fraction of light that passes all triangles for which counts(id) is true. The triangles
   /// must be complete.
   template <class Counts>
-  [[nodiscard]] float transmittance(const Counts& counts) const {
-    float product = 1;
+  [[nodiscard]] Vec3 transmittance(const Counts& counts) const {
+    Vec3 product(1);
     for (std::uint32_t i = 0; i < count_; ++i)
       if (counts(ids_[i])) product *= factors_[i];
     return product;
@@ -55,22 +56,28 @@ class PassedTriangles {
  private:
   std::uint32_t count_ = 0;  // greater than kMost if some are missing
   std::array<PrimitiveId, kMost> ids_;
-  std::array<float, kMost> factors_;
+  std::array<Vec3, kMost> factors_;
 };
+
+/// True if light passes through the backs of one-sided surfaces.
+[[nodiscard]] inline bool passes_backs(const PathOptions& options) {
+  return options.backfaces == Backfaces::pass;
+}
 
 /// What blocks all light along a ray.
 class LightBlockers {
  public:
-  /// If `passes_backs`, light passes through the backs of one-sided surfaces.
-  LightBlockers(const RayTracer& tracer, const Shading& shading, bool passes_backs)
+  LightBlockers(const RayTracer& tracer, const Shading& shading, const PathOptions& options)
       : shading_(shading),
-        open_(passes_backs && tracer.knows_sides() ? shading.triangles_with_open_backs() : nullptr),
-        may_pass_opaque_(passes_backs && shading.has_open_backs() && open_ == nullptr) {}
+        model_(options.bsdf),
+        open_(passes_backs(options) && tracer.knows_sides() ? shading.triangles_with_open_backs()
+                                                            : nullptr),
+        may_pass_opaque_(passes_backs(options) && shading.has_open_backs() && open_ == nullptr) {}
 
   /// The hits that the queries of a RayTracer must find. Unless `targets` is null, ray i must find
   /// its target targets[i], and hits beside it on the same emitter, even where they are
-  /// transparent. Unless `passed` is empty, ray i also passes blended triangles with an opacity
-  /// below 1, which are added to passed[i]. Valid as long as this object.
+  /// transparent. Unless `passed` is empty, ray i also passes blended and clear triangles that
+  /// transmit some light, which are added to passed[i]. Valid as long as this object.
   [[nodiscard]] HitFilter filter(const std::uint32_t* targets = nullptr,
                                  std::span<PassedTriangles> passed = {}) {
     targets_ = targets;
@@ -86,7 +93,7 @@ class LightBlockers {
     return shading_.blocks_unless_transparent(id) ||
            (shading_.is_masked(id) && passes_if_partial(id));
   }
-  /// True if rays may pass blended triangles.
+  /// True if rays may pass blended or clear triangles.
   [[nodiscard]] bool can_pass_blended() const {
     return !may_pass_opaque_ && shading_.has_blended();
   }
@@ -95,9 +102,10 @@ class LightBlockers {
   static bool passes(const void* self, std::size_t i, const Ray& ray, PrimitiveId id) {
     const auto& blockers = *static_cast<const LightBlockers*>(self);
     if (blockers.may_be_target(i, id)) return false;
-    const float coverage = blockers.shading_.masked_coverage(ray, id);
-    if (coverage == 0 || coverage == 1 || !blockers.passes_if_partial(id)) return coverage == 0;
-    blockers.passed_[i].add(id, coverage);
+    const Vec3 through = blockers.shading_.masked_transmittance(ray, id, blockers.model_);
+    const bool passes_all = through == Vec3(1);
+    if (passes_all || through == Vec3(0) || !blockers.passes_if_partial(id)) return passes_all;
+    blockers.passed_[i].add(id, through);
     return true;
   }
   static Visible known(const void* self, std::size_t i, PrimitiveId id, const HitWeights& at) {
@@ -114,6 +122,7 @@ class LightBlockers {
   }
 
   const Shading& shading_;
+  BsdfModel model_;
   BitPages open_;
   bool may_pass_opaque_;  // true if light passes opaque surfaces through which the queries don't
   const std::uint32_t* targets_ = nullptr;
@@ -121,11 +130,10 @@ class LightBlockers {
 };
 
 /// The fraction of light that passes all surfaces on a ray before its t_max or its target. `hit` is
-/// the ray's nearest hit. If `passes_backs`, light passes through the backs of one-sided surfaces.
-/// `beyond` counts the calls of Bvh::next.
-[[nodiscard]] float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs,
-                                  const Ray& ray, std::optional<Hit> hit,
-                                  const std::optional<PrimitiveId>& target, std::uint64_t& beyond,
-                                  AroundRay around = {});
+/// the ray's nearest hit. `beyond` counts the calls of Bvh::next.
+[[nodiscard]] Vec3 transmittance(const Bvh& bvh, const Shading& shading, const PathOptions& options,
+                                 const Ray& ray, std::optional<Hit> hit,
+                                 const std::optional<PrimitiveId>& target, std::uint64_t& beyond,
+                                 AroundRay around = {});
 
 }  // namespace microtrace

@@ -1,7 +1,7 @@
 // Compares the shading kernels of every instruction set of this machine bit by bit with the
 // one-lane instance.
 #include "render/integrators/wavefront/path_state.hpp"
-#include "render/integrators/wavefront/vertex_queue.hpp"
+#include "render/integrators/wavefront/vertices/vertex_queue.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/scatter.hpp"
 #include "render/lanes/dispatch.hpp"

@@ -51,6 +51,12 @@ class BaseBsdf {
   /// `h` must be half_vector(wi).
   [[nodiscard]] Evaluation<N> evaluate(const V& wi, const V& h) const;
 
+  /// The fraction of light that crosses a thin wall toward wo in a straight line if the wall is
+  /// smooth.
+  [[nodiscard]] V crossing_light() const {
+    return shares(wo_.z).entering * transmittance(coating_below(), wo_);
+  }
+
   /// The unit half vector of wo and wi. A wi below the surface is first mirrored to the upper side.
   [[nodiscard]] V half_vector(const V& wi) const {
     return unit<N>(wo_ + V{wi.x, wi.y, magnitude(wi.z)});

@@ -48,12 +48,11 @@ void ShadowRays::add(const ShadingKernels& kernels, Lanes lanes, const ShadowLan
 }
 
 std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading& shading,
-                                Backfaces backfaces, NestedMediaTable& media,
+                                const PathOptions& options, NestedMediaTable& media,
                                 std::span<Vec3> colors) {
-  const bool passes_backs = backfaces == Backfaces::pass;
   std::uint64_t beyond = 0;
-  LightBlockers blockers(tracer, shading, passes_backs);
-  const auto add = [&](const ShadowColumns& rays, std::size_t i, float part) {
+  LightBlockers blockers(tracer, shading, options);
+  const auto add = [&](const ShadowColumns& rays, std::size_t i, const Vec3& part) {
     colors[rays.slot[i]] += part * vector_of(rays.light, i);
   };
   const bool passes_blended = blockers.can_pass_blended();
@@ -68,7 +67,7 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
                              const std::optional<PrimitiveId>& target) {
     const NestedMedia* here = media.at(arrays.media[i]);
     if (hits_[i] == kNoPrimitive || hits_[i] == target) {
-      if (!passes_blended) return add(arrays, i, 1);
+      if (!passes_blended) return add(arrays, i, Vec3(1));
       if (passed_[i].is_complete()) {
         // The query may have found some behind the target first.
         const auto is_before = [&](PrimitiveId id) {
@@ -84,7 +83,7 @@ std::uint64_t ShadowRays::trace(RayTracer& tracer, const Bvh& bvh, const Shading
     }
     const Ray ray = rays[i];
     add(arrays, i,
-        transmittance(bvh, shading, passes_backs, ray, bvh.intersect(ray), target, beyond,
+        transmittance(bvh, shading, options, ray, bvh.intersect(ray), target, beyond,
                       {.table = &media, .here = here}));
   };
   const RayColumns free = columns_of(free_.rays, free_.count);

@@ -42,7 +42,7 @@ class ShadowRays {
   /// Traces the rays, adds the light that arrives to the colors, and clears the rays. `media` has
   /// the rays' media. Returns the number of calls of Bvh::next.
   std::uint64_t trace(RayTracer& tracer, const Bvh& bvh, const Shading& shading,
-                      Backfaces backfaces, NestedMediaTable& media, std::span<Vec3> colors);
+                      const PathOptions& options, NestedMediaTable& media, std::span<Vec3> colors);
 
  private:
   /// A group of rays that all have a target, or that all have none.

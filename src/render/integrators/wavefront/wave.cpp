@@ -71,11 +71,11 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
     step();
     const RayTimer timer(counts_.shadow, shadow_rays_.count() + ground_shadows_.count());
     counts_.beyond +=
-        shadow_rays_.trace(tracer_, world_->bvh, *shading_, options_.backfaces, media_, colors_);
+        shadow_rays_.trace(tracer_, world_->bvh, *shading_, options_, media_, colors_);
     if (records != nullptr) recorder_.note(*paths_, count_, colors_);
     if (ground_shadows_.count() == 0) continue;
     counts_.beyond += ground_shadows_.trace(
-        world_->bvh, *shading_, options_.backfaces,
+        world_->bvh, *shading_, options_,
         [this](std::size_t slot, float occlusion) { darken(slot, occlusion); });
   }
   if (records != nullptr) recorder_.finish(colors_, *records);
@@ -94,7 +94,7 @@ void Wave::step() {
       vertices_.add(step_, *paths_, first, outgoing);
     }
     escape();
-  } while (pass_blended());
+  } while (continue_passing());
   vertices_.finish(step_, outgoing);
   count_ = outgoing.count;
   std::fill_n(next_paths_->t_min, count_, 0.0F);
@@ -114,7 +114,7 @@ void Wave::step(std::size_t first) {
   for (Lanes missed = ((Lanes{1} << size) - 1) & ~hits.hit; missed != 0; missed &= missed - 1) {
     const int lane = std::countr_zero(missed);
     const std::size_t i = first + static_cast<std::size_t>(lane);
-    left_bodies_.clear();
+    crossed_.clear();
     if (paths_->media[i] == 0 || cross_medium(i, paths_->ray(i), std::nullopt, 0))
       escaped |= Lanes{1} << lane;
   }

@@ -5,7 +5,7 @@
 #include "render/integrators/wavefront/path_recorder.hpp"
 #include "render/integrators/wavefront/path_state.hpp"
 #include "render/integrators/wavefront/shadow_rays.hpp"
-#include "render/integrators/wavefront/vertex_queue.hpp"
+#include "render/integrators/wavefront/vertices/vertex_queue.hpp"
 #include "render/lanes/shading_kernels.hpp"
 #include "render/lighting/ground_shadows.hpp"
 #include "render/lighting/lighting.hpp"
@@ -52,10 +52,14 @@ class Wave {
   void find_visible();
   /// Sets blockers_ for the rays that hit triangles with open backs.
   void find_blocked();
-  /// Keeps only the paths that pass through blended surfaces, and finds their next hits. Returns
-  /// false if there are none.
-  [[nodiscard]] bool pass_blended();
-  /// The hits that don't count for paths that have passed through blended surfaces.
+  /// True if path i, which passes through its hit, can do so together with others.
+  [[nodiscard]] bool may_continue_later(std::size_t i) const;
+  /// Lets path i pass through its hit when all paths have met their next surfaces.
+  void continue_later(std::size_t i);
+  /// Keeps only the paths that pass through surfaces, and finds their next hits. Returns false if
+  /// there are none.
+  [[nodiscard]] bool continue_passing();
+  /// The hits that don't count for paths that have passed through surfaces.
   [[nodiscard]] HitFilter passed() const;
   /// True if path i has passed through this primitive.
   [[nodiscard]] bool has_passed(std::size_t i, PrimitiveId id) const;
@@ -114,14 +118,17 @@ class Wave {
     return step_.pair(sampling::kCoveragePair) + passed * sampling::kPassedPairs;
   }
   /// True if the current segment of path i ends at the point. This is a random choice if the point
-  /// is partially opaque. `passed` is the number of such surfaces that the path has passed, and is
-  /// incremented if it passes this one.
-  [[nodiscard]] bool stops(std::size_t i, const ShadingPoint& point, std::uint32_t& passed) const;
+  /// is partially opaque or clear. `passed` is the number of such surfaces that the path has
+  /// passed, and is incremented if it passes this one. Adds clear surfaces to crossed_.
+  [[nodiscard]] bool stops(std::size_t i, const ShadingPoint& point, std::uint32_t& passed);
+  /// Multiplies the light that path i finds by a factor.
+  void weaken(std::size_t i, const Vec3& light);
   /// Finds the next hit of path i behind `hit`, and sets `point` to its shading point.
   [[nodiscard]] std::optional<Hit> next(std::size_t i, const Hit& hit, ShadingPoint& point);
   /// The source of the light that arrives from behind through surfaces whose backs pass light.
   struct Behind {
     bool is_open = false;      ///< true if the source is the environment
+    Vec3 light{1};             ///< the factor of its light
     std::optional<Hit> hit{};  ///< the hit if the source is an emissive surface
     ShadingPoint point{};      ///< the hit's shading point
   };
@@ -183,12 +190,13 @@ class Wave {
   ShadowRays shadow_rays_;
   NestedMediaTable media_;
   OutgoingRays* outgoing_ = nullptr;  // during a bounce
-  /// A body that the current ray leaves through a hidden surface, and the distance of the surface.
-  struct LeftBody {
-    float distance;
-    const Medium* medium;
+  /// A hidden or clear surface that the current ray meets.
+  struct Crossed {
+    float distance;                ///< from the ray's origin
+    const Medium* left = nullptr;  ///< the body that the ray leaves if the surface is hidden
+    Vec3 light{1};                 ///< the factor of the light that arrives from there
   };
-  std::vector<LeftBody> left_bodies_;
+  std::vector<Crossed> crossed_;
   std::optional<float> ground_;
   GroundShadows ground_shadows_;
   PathRecorder recorder_;
@@ -201,13 +209,13 @@ class Wave {
   /// The first primitive that blocks the light from behind, or kNoPrimitive. Any primitive if there
   /// are no emissive surfaces.
   std::array<PrimitiveId, kRandomBatch> blockers_;
-  /// The number of blended surfaces that the current rays have passed. Paths that pass more than
-  /// kMostPassed of them use next().
+  /// The number of blended and clear surfaces that the current rays have passed. Paths that pass
+  /// more than kMostPassed of them use next().
   std::uint32_t passed_ = 0;
   static constexpr std::uint32_t kMostPassed = 16;
   // These surfaces, by their order along the ray and by slot.
   std::array<std::array<PrimitiveId, kRandomBatch>, kMostPassed> passed_ids_;
-  // The paths that pass through another blended surface.
+  // The paths that pass through another surface.
   std::array<std::uint32_t, kRandomBatch> passing_;
   std::size_t passing_count_ = 0;
   // Working memory of find_visible() and find_blocked().

@@ -32,12 +32,16 @@ void Wave::add_emission(std::size_t i, const Hit& hit, const ShadingPoint& point
 
 void Wave::escape() {
   const bool from_camera = step_.depth == 1;
-  const std::span escaped = std::span(escaped_).first(std::exchange(escaped_count_, 0));
+  std::span escaped = std::span(escaped_).first(std::exchange(escaped_count_, 0));
+  const auto is_behind_glass = [&](std::uint32_t i) { return alphas_[paths_->slot[i]] != 0; };
   if (from_camera && ground_) {
-    for (const std::uint32_t i : escaped) meet_ground(i);
+    for (const std::uint32_t i : escaped)
+      if (!is_behind_glass(i)) meet_ground(i);
   }
-  // An environment that is not seen is composited later.
-  if (!lighting_->has_environment() || (from_camera && !lighting_->is_seen())) return;
+  if (!lighting_->has_environment()) return;
+  // An environment that is not seen is composited later, but it is part of what glass shows.
+  if (from_camera && !lighting_->is_seen())
+    escaped = {escaped.begin(), std::partition(escaped.begin(), escaped.end(), is_behind_glass)};
   for (std::size_t first = 0; first < escaped.size(); first += kShadingLanes) {
     const std::size_t count = std::min<std::size_t>(escaped.size() - first, kShadingLanes);
     add_environment(escaped.subspan(first, count));

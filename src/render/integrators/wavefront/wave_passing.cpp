@@ -1,7 +1,6 @@
 /// What the paths of a wavefront meet behind surfaces that let paths or light through.
 
 #include "render/integrators/ray_timer.hpp"
-#include "render/integrators/wavefront/medium_event.hpp"
 #include "render/integrators/wavefront/wave.hpp"
 
 #include <algorithm>
@@ -110,11 +109,23 @@ HitFilter Wave::passed() const {
               .triangles = shading_->masked(), .context = this, .known = known, .passes = passes}};
 }
 
-bool Wave::pass_blended() {
+bool Wave::may_continue_later(std::size_t i) const {
+  return passed_ < kMostPassed && paths_->media[i] == 0 && shading_->is_masked(hits_[i]);
+}
+
+void Wave::continue_later(std::size_t i) {
+  passed_ids_[passed_][paths_->slot[i]] = hits_[i];
+  passing_[passing_count_++] = static_cast<std::uint32_t>(i);
+}
+
+bool Wave::continue_passing() {
   if (passing_count_ == 0) return false;
   count_ = std::exchange(passing_count_, 0);
   ++passed_;
-  paths_->keep(std::span(passing_).first(count_));
+  const auto passing = std::span(passing_).first(count_);
+  // Those that need further tests follow the others of their group.
+  std::ranges::sort(passing);
+  paths_->keep(passing);
   const RayTimer timer(counts_.path, count_);
   const bool from_camera = step_.depth == 1;
   RayColumns rays = columns_of(*paths_, count_);
@@ -141,94 +152,6 @@ void Wave::set_least_alpha(std::size_t first, const TexturedMaterial& look, floa
   // stops() is true for alphas greater than the random number, so the next number is the least one.
   for (float& u : textured_.least_alpha)
     u = std::bit_cast<float>(std::bit_cast<std::uint32_t>(u) + 1);
-}
-
-bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t& passed) const {
-  const bool from_camera = paths_->pdf[i] == 0;
-  if (!from_camera && point.look->is_opaque) return true;
-  const float coverage = shading_->coverage(from_camera ? point : point.unfiltered(), from_camera);
-  if (coverage == 0 || coverage == 1) return coverage == 1;
-  if (paths_->sobol(i).one(coverage_pair(passed)) < coverage) return true;
-  ++passed;
-  return false;
-}
-
-std::optional<Hit> Wave::next(std::size_t i, const Hit& hit, ShadingPoint& point) {
-  ++counts_.beyond;
-  const Ray ray = paths_->ray(i);
-  const std::optional<Hit> result = world_->bvh.next(ray, hit);
-  if (!result) return result;
-  point = shading_->point(ray, *result);
-  prepare(i, point);
-  return result;
-}
-
-Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint point,
-                               std::uint32_t passed, bool is_nearest) {
-  const auto is_sky_lit = [&] {
-    return lighting_->environment(unit<1>(vector_of(paths_->d, i))) != Vec3(0);
-  };
-  if (is_nearest && point.look->has_open_back && knows_blocked() && blockers_[i] == kNoPrimitive)
-    return {.is_open = is_sky_lit()};
-  std::optional<Hit> hit = first;
-  while (Shading::lets_light_in(point)) {
-    ++passed;
-    do {
-      hit = next(i, *hit, point);
-      if (!hit) return {.is_open = is_sky_lit()};
-    } while (!stops(i, point, passed));
-  }
-  if (!point.look->is_emissive() || emission(i, point) == Vec3(0)) return {};
-  return {.hit = hit, .point = point};
-}
-
-bool Wave::passes_hidden_surface(std::size_t i, const ShadingPoint& point) {
-  const NestedMedia* here = media_.at(paths_->media[i]);
-  if (here == nullptr) return false;
-  const Medium* own = Shading::enclosed_medium(point);
-  if (!NestedMediaTable::is_hidden(own, point.at.front, here)) return false;
-  left_bodies_.push_back({.distance = point.at.distance, .medium = own});
-  return true;
-}
-
-bool Wave::cross_medium(std::size_t i, const Ray& ray, const std::optional<Hit>& hit,
-                        float distance) {
-  PathColumns& paths = *paths_;
-  const NestedMedia* media = media_.at(paths.media[i]);
-  MediumPath path{.sobol = paths.sobol(i),
-                  .throughput = vector_of(paths.throughput, i),
-                  .pdf = paths.pdf[i],
-                  .begin = paths.begin[i],
-                  .spread = paths.spread[i],
-                  .scatterings = paths.scatterings[i]};
-  const MediumEvent event =
-      microtrace::cross_medium(world_->bvh, step_, ray, hit, distance, *media->medium, path);
-  put_vector(paths.throughput, i, path.throughput);
-  for (const LeftBody& body : left_bodies_) {
-    if (event.arrives || body.distance < event.distance)
-      media = media_.without(media, *body.medium);
-  }
-  paths.media[i] = NestedMediaTable::number_of(media);
-  if (!event.scattered) return event.arrives;
-  PathColumns& next = *next_paths_;
-  const std::size_t k = outgoing_->count++;
-  put_vector(next.o, k, event.scattered->o);
-  put_vector(next.d, k, event.scattered->d);
-  next.left[k] = kNoPrimitive;
-  next.key[k] = paths.key[i];
-  next.index[k] = paths.index[i];
-  next.slot[k] = paths.slot[i];
-  put_vector(next.throughput, k, path.throughput);
-  next.pdf[k] = path.pdf;
-  put_vector(next.from_p, k, vector_of(paths.from_p, i));
-  put_vector(next.from_n, k, vector_of(paths.from_n, i));
-  next.media[k] = paths.media[i];
-  next.scatterings[k] = path.scatterings;
-  next.is_scattered[k] = 1;
-  next.channel[k] = paths.channel[i];
-  next.begin[k] = path.begin;
-  next.spread[k] = path.spread;
-  return false;
 }
 
 }  // namespace microtrace

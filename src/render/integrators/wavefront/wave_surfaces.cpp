@@ -3,7 +3,6 @@
 #include "render/bsdf/put_surface.hpp"
 #include "render/integrators/wavefront/wave.hpp"
 #include "render/lanes/lane_access.hpp"
-#include "render/media/beer_lambert.hpp"
 #include "render/shading/points/footprint.hpp"
 
 #include <algorithm>
@@ -151,12 +150,8 @@ Lanes Wave::add_simple(std::size_t first) {
     passed = surfaces.passed;
     simple = (simple & ~varying) | surfaces.opaque;
   }
-  for (Lanes rest = passed; rest != 0; rest &= rest - 1) {
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
-    const std::uint32_t i = static_cast<std::uint32_t>(first) + lane;
-    passed_ids_[passed_][paths.slot[i]] = group.id[lane];
-    passing_[passing_count_++] = i;
-  }
+  for (Lanes rest = passed; rest != 0; rest &= rest - 1)
+    continue_later(first + static_cast<std::size_t>(std::countr_zero(rest)));
   ended |= simple & last;
   simple &= ~last;
   if (step_.depth == 1) {
@@ -204,52 +199,6 @@ Wave::VaryingSurfaces Wave::add_varying(std::size_t first, Lanes lanes) {
   return result;
 }
 
-void Wave::prepare(std::size_t i, ShadingPoint& point) const {
-  point.width = paths_->begin[i] + paths_->spread[i] * point.at.distance;
-  Shading::find_texel_address(point);
-}
-
-bool Wave::step_slowly(std::size_t first, int lane) {
-  const std::size_t i = first + static_cast<std::size_t>(lane);
-  PathColumns& paths = *paths_;
-  const HitGroup& hits = vertices_.group().hits;
-  const Ray ray = paths.ray(i);
-  const bool from_camera = paths.pdf[i] == 0;
-  // The parameter t is needed only where find_points() is not sure, and in media.
-  const bool is_sure = (hits.sure >> lane & 1U) != 0 && paths.media[i] == 0;
-  std::optional<Hit> hit = from_camera ? *camera_hits_[i]
-                           : is_sure   ? Hit{.id = hits_[i], .t = 0}
-                                       : tracer_.hit(ray, hits_[i]);
-  ShadingPoint point = shading_->point(hits, lane, ray, *hit);
-  prepare(i, point);
-  std::uint32_t passed = passed_;
-  bool is_nearest = true;
-  left_bodies_.clear();
-  while (hit && (passes_hidden_surface(i, point) || !stops(i, point, passed))) {
-    hit = next(i, *hit, point);
-    is_nearest = false;
-  }
-  if (paths.media[i] != 0 && !cross_medium(i, ray, hit, point.at.distance)) return true;
-  if (!hit) return false;
-  if (looks_behind() && Shading::lets_light_in(point) &&
-      (!is_nearest || !point.look->has_open_back || may_get_light(i))) {
-    const Behind behind = look_behind(i, *hit, point, passed, is_nearest);
-    const NestedMedia* media = media_.at(paths.media[i]);
-    // No light arrives from infinitely far away through a medium that scatters.
-    if (behind.is_open) return media != nullptr && media->medium->scatters();
-    if (behind.hit && media != nullptr) {
-      const float rest = behind.point.at.distance - point.at.distance;
-      put_vector(paths.throughput, i,
-                 vector_of(paths.throughput, i) * beer_lambert(media->medium->extinction, rest));
-    }
-    if (behind.hit) hit = behind.hit, point = behind.point;
-  }
-  if (from_camera) alphas_[paths.slot[i]] = 1;
-  add_emission(i, *hit, point);
-  if (!is_last(i) && !point.look->material->unlit) put_vertex(i, lane, *hit, point);
-  return true;
-}
-
 int Wave::channel_of(const Material& material, std::size_t i) const {
   const auto channel = static_cast<int>(paths_->channel[i]);
   if (channel < 3 || material.dispersion == 0 || !refracts(material)) return channel;
@@ -264,7 +213,11 @@ void Wave::put_vertex(std::size_t i, int lane, const Hit& hit, const ShadingPoin
   const int channel = channel_of(material, i);
   const Beyond beyond =
       media_.cross(Shading::enclosed_medium(point), point.at.front, media_.at(paths_->media[i]));
-  const BsdfInput& input = shading_->bsdf_input(point, channel, beyond.outside, varying_);
+  const BsdfInput& whole = shading_->bsdf_input(point, channel, beyond.outside, varying_);
+  const BsdfInput& input =
+      point.look->is_clear
+          ? varying_.emplace(bsdf::without_transmission(whole.parameters), whole.layers)
+          : whole;
   group.vertices |= Lanes{1} << lane;
   group.id[lane] = hit.id;
   put_point(group, lane, point);

@@ -4,10 +4,10 @@
 
 #include "accel/ray_tracer.hpp"
 #include "render/integrators/wavefront/column_list.hpp"
-#include "render/integrators/wavefront/guided_vertices.hpp"
 #include "render/integrators/wavefront/path_state.hpp"
 #include "render/integrators/wavefront/shadow_rays.hpp"
-#include "render/integrators/wavefront/vertex_group.hpp"
+#include "render/integrators/wavefront/vertices/guided_vertices.hpp"
+#include "render/integrators/wavefront/vertices/vertex_group.hpp"
 #include "render/lanes/shading_kernels.hpp"
 #include "render/lighting/lighting.hpp"
 #include "render/media/nested_media.hpp"

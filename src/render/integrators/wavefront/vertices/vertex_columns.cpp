@@ -1,6 +1,6 @@
 /// The arrays between which a queue of vertices copies lanes.
 
-#include "render/integrators/wavefront/vertex_queue.hpp"
+#include "render/integrators/wavefront/vertices/vertex_queue.hpp"
 
 namespace microtrace {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/integrators/wavefront/vertex_group.hpp"
+#include "render/integrators/wavefront/vertices/vertex_group.hpp"
 
 #include "render/lanes/lane_access.hpp"
 

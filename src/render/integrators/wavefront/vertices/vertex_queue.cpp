@@ -1,4 +1,4 @@
-#include "render/integrators/wavefront/vertex_queue.hpp"
+#include "render/integrators/wavefront/vertices/vertex_queue.hpp"
 
 #include "render/lanes/dispatch.hpp"
 #include "render/lanes/lane_access.hpp"

@@ -1,4 +1,4 @@
-#include "render/integrators/wavefront/guided_vertices.hpp"
+#include "render/integrators/wavefront/vertices/guided_vertices.hpp"
 
 #include "render/lanes/lane_access.hpp"
 

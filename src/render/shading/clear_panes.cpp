@@ -1,0 +1,61 @@
+/// Light that crosses thin smooth walls in straight lines.
+
+#include "render/bsdf/bsdf.hpp"
+#include "render/bsdf/put_surface.hpp"
+#include "render/shading/points/normals.hpp"
+#include "render/shading/shading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+
+Vec3 Shading::normal(const ShadingPoint& point, const Vec3& d) {
+  const TextureSlot& slot = (*point.look)[MaterialTexture::normal];
+  const float side = point.at.front ? 1.0F : -1.0F;
+  Vec3 n = point.at.ns;
+  if (slot.map != nullptr) {
+    const Vec4 tangent = point.at.tangent();
+    n = mapped_normal<1>(n, {Vec3(tangent), tangent.w}, Vec3(slot.at(point)),
+                         point.look->material->normal_scale);
+  }
+  return usable_normal<1>(side * n, side * point.at.n, -d);
+}
+
+Vec3 Shading::crossing_light(const ShadingPoint& point, const Vec3& d, BsdfModel model) const {
+  std::optional<BsdfInput> varying;
+  const BsdfInput& input = bsdf_input(point, 3, nullptr, varying);
+  // In local coordinates, because a smooth surface without anisotropy looks the same all around.
+  const Vec3 wi = unit<1>(d);
+  const float cosine = std::clamp(-glm::dot(wi, normal(point, wi)), bsdf::kGrazingCosine, 1.0F);
+  const Vec3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
+  SurfaceLanes lanes{};
+  bsdf::put_surface(lanes, 0, input.parameters);
+  bsdf::put_extensions(lanes, 0, input.parameters, input.layers);
+  const auto frame = bsdf::Frame<1>::about({0, 0, 1});
+  put(lanes.coat_normal, 0, frame.n);
+  const auto surface = bsdf::Surface<1>::extended(lanes, 0, frame);
+  bsdf::Features features = input.features;
+  features.is_spec = model == BsdfModel::spec;
+  std::optional<bsdf::Coating<1>> coating;
+  if (features.layers != bsdf::LayerSide::none) coating.emplace(surface);
+  const bsdf::Bsdf<1, bsdf::IsotropicParts<1>> bsdf(features, surface,
+                                                    coating ? &*coating : nullptr, wo);
+  return bsdf.crossing_light();
+}
+
+Vec3 Shading::transmittance(const ShadingPoint& point, const Vec3& d, BsdfModel model) const {
+  const float coverage = this->coverage(point, false);
+  if (!point.look->is_clear || coverage == 0) return Vec3(1 - coverage);
+  return (1 - coverage) + coverage * crossing_light(point, d, model);
+}
+
+Vec3 Shading::masked_transmittance(const Ray& ray, PrimitiveId id, BsdfModel model) const {
+  if (!look_of(id).is_clear) return Vec3(1 - masked_coverage(ray, id));
+  return transmittance(point(ray, {.id = id, .t = 0}).unfiltered(), ray.d, model);
+}
+
+}  // namespace microtrace
