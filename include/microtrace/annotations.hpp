@@ -56,7 +56,7 @@ struct NamedFile {
 struct BopAnnotations {
   std::string part;              ///< for join_bop()
   std::vector<NamedFile> files;  ///< depth, mask and mask_visib, relative to the scene's folder
-  std::vector<Diagnostic> warnings;
+  std::optional<Diagnostic> too_far, too_near;  ///< warnings about depths that are stored as 0
 };
 
 /// The formats that annotate() makes.

@@ -73,7 +73,7 @@ class Quadric(Brief):
     """The surface a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0. Its front
     is the side where the polynomial is positive, so the inside of a body is negative.
 
-    Every ray is tested against all quadrics other than ellipsoids, which may be infinite.
+    Every ray is tested against each quadric that isn't an ellipsoid, because it may be infinite.
     """
 
     coefficients: Sequence[float] = field(default=(0.0,) * 10)  #: a to j

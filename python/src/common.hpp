@@ -28,10 +28,10 @@ nb::object member(const char* module, const char* name);
 nb::object to_python(const Diagnostic& diagnostic);
 nb::list to_python(const std::vector<Diagnostic>& diagnostics);
 
-/// A call of a bound function. While it exists, the interpreter doesn't exit. An interpreter that
-/// exits ends each other thread that waits for its lock, within whatever C++ function called
-/// Python, and nanobind's objects abort the process when such a thread destroys them. Throws
-/// SystemExit, which ends daemon threads without a message, if the interpreter exits.
+/// A call of a bound function. While it exists, the interpreter exits only after 5 s. An
+/// interpreter that exits ends each other thread that waits for its lock, within whatever C++
+/// function called Python, and nanobind's objects abort the process when such a thread destroys
+/// them. Throws SystemExit, which ends daemon threads without a message, if the interpreter exits.
 class Call {
  public:
   Call();
@@ -61,9 +61,9 @@ class Caller {
   /// True after Ctrl-C, and if the interpreter exits. The function should return soon.
   [[nodiscard]] bool is_canceled() const { return is_canceled_; }
 
-  /// Calls the Python function `f` with a number, on the calling thread, and passes its result, or
-  /// null with an exception set, to `use`, which must not throw. Returns false without calling it
-  /// if the call of the bound function is canceled.
+  /// Calls the Python function `f` with a number, on the calling thread if it waits, and passes its
+  /// result, or null with an exception set, to `use`, which must not throw. Returns false without
+  /// calling it if the call of the bound function is canceled.
   [[nodiscard]] bool call(const nb::object& f, double number,
                           const std::function<void(PyObject* result)>& use);
 
@@ -76,18 +76,20 @@ class Caller {
 
     void run();
   };
+  /// Runs an errand on this thread.
+  [[nodiscard]] bool run_here(Errand& errand);
 
   friend void run_interruptible(const std::function<void(Caller&)>& f);
   /// Waits for end(). Runs errands, and checks for signals in between.
   void wait(class Unlocked& unlocked);
   void end();
 
-  std::thread::id thread_ = std::this_thread::get_id();
+  bool waits_ = true;  // false if the system refused a thread, so that the calling thread works
   std::mutex mutex_;
   std::condition_variable changed_;
   Errand* errand_ = nullptr;
-  bool is_done_ = false, is_interrupted_ = false, is_exiting_ = false;
-  std::atomic<bool> is_canceled_ = false;
+  bool is_done_ = false, is_interrupted_ = false;
+  std::atomic<bool> is_canceled_ = false, is_exiting_ = false;
 };
 
 /// Runs f() without the interpreter's lock, on a separate thread while this thread handles signals

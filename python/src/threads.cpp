@@ -27,19 +27,23 @@ constexpr std::chrono::milliseconds kPatience{50};
 /// The number of items that a thread takes at a time.
 constexpr std::size_t kBlock = 4096;
 
+/// The number of this thread's calls that are running. Python code within a call may call others.
+thread_local int own_calls = 0;
+
 /// The calls that are running.
 class Calls {
  public:
+  explicit Calls(int count = 0) : count_(count) {}
   /// Returns false if the interpreter exits. The thread that makes it exit may still run calls.
   [[nodiscard]] bool begin() {
     const std::scoped_lock lock(mutex_);
     if (is_canceled()) return false;
-    ++count_;
+    ++count_, ++own_calls;
     return true;
   }
   void end() {
     const std::scoped_lock lock(mutex_);
-    --count_;
+    --count_, --own_calls;
     changed_.notify_all();
   }
 
@@ -58,7 +62,7 @@ class Calls {
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  int count_ = 0;
+  int count_;
   std::thread::id exiting_;  // set before is_exiting_
   std::atomic<bool> is_exiting_ = false;
 };
@@ -68,7 +72,7 @@ Calls calls;
 /// Runs in a forked process. The calls of the parent's other threads don't end there, and one of
 /// these threads may have locked the mutex.
 void forget_calls() {
-  new (&calls) Calls;
+  new (&calls) Calls(own_calls);
 }
 
 /// Ends a daemon thread without a message while the interpreter exits.
@@ -169,14 +173,21 @@ void Caller::Errand::run() {
   is_done = true;
 }
 
+bool Caller::run_here(Errand& errand) {
+  if (calls.is_canceled()) is_canceled_ = is_exiting_ = true;
+  if (is_canceled_) return false;
+  PyGILState_STATE state{};
+  stay_alive([&] { state = PyGILState_Ensure(); });
+  errand.run();
+  // Only the main thread handles signals.
+  if (PyErr_CheckSignals() != 0) is_interrupted_ = is_canceled_ = true;
+  PyGILState_Release(state);
+  return true;
+}
+
 bool Caller::call(const nb::object& f, double number, const std::function<void(PyObject*)>& use) {
   Errand errand{.f = f, .number = number, .use = use};
-  if (std::this_thread::get_id() == thread_) {  // the system refused another thread
-    if (is_canceled()) return false;
-    const nb::gil_scoped_acquire acquire;
-    errand.run();
-    return true;
-  }
+  if (!waits_) return run_here(errand);
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return errand_ == nullptr; });
   errand_ = &errand;
@@ -230,6 +241,7 @@ void run_interruptible(const std::function<void(Caller&)>& f) {
     const auto threads = start_threads(1, work);
     if (threads.empty()) {
       require_stack();
+      caller.waits_ = false;
       work();
     }
     caller.wait(unlocked);

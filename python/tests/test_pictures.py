@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import platform
 import struct
 import subprocess
@@ -499,9 +500,51 @@ started.wait()
 """)
 
 
-def run_program(program: str) -> None:
+REFUSE_THREADS = """
+#include <dlfcn.h>
+#include <errno.h>
+#include <pthread.h>
+typedef int Create(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
+int refused;
+int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*f)(void*), void* x) {
+  if (__atomic_fetch_sub(&refused, 1, __ATOMIC_RELAXED) > 0) return EAGAIN;
+  return ((Create*)dlsym(RTLD_NEXT, "pthread_create"))(thread, how, f, x);
+}
+"""
+
+
+@pytest.mark.parametrize("refused", [1, 2, 100])
+def test_progress_if_the_system_refuses_threads(tmp_path, refused):
+    # Without a thread for it, the calling thread renders, and others may call the function.
+    library = tmp_path / "refuse.so"
+    compile = ["cc", "-D_GNU_SOURCE", "-shared", "-fPIC", "-x", "c", "-", "-o", library, "-ldl"]
+    subprocess.run(compile, input=REFUSE_THREADS, check=True, text=True)
+    run_program(
+        f"""
+import ctypes
+import microtrace as mt
+scene = mt.load({str(KNOT)!r}).prepare()
+shares = []
+def draw(**options):
+    return mt.render(scene, size=(160, 120), spp=16, threads=4, **options).color.tobytes()
+expected = draw()
+ctypes.c_int.in_dll(ctypes.CDLL({str(library)!r}), "refused").value = {refused}
+assert draw(progress=shares.append) == expected
+assert shares[-1] == 1
+""",
+        LD_PRELOAD=str(library),
+    )
+
+
+def run_program(program: str, **environment: str) -> None:
     """Runs a program that must end without an error or a message."""
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    result = subprocess.run(
+        [sys.executable, "-c", program],
+        capture_output=True,
+        text=True,
+        env=os.environ | environment,
+        timeout=300,
+    )
     assert (result.returncode, result.stderr) == (0, ""), result.stderr
 
 

@@ -101,19 +101,30 @@ TEST(Bop, CameraPosesAndCountsInClosedForm) {
   EXPECT_EQ(std::ranges::count(mask, 255), info[2]["px_count_all"].get<int>());
   const auto hidden = samples_of<std::uint8_t>(bytes_of(bop, "mask_visib/000007_000002.png"));
   EXPECT_EQ(std::ranges::count(hidden, 0), 160);
-  EXPECT_TRUE(bop.warnings.empty());
+  EXPECT_FALSE(bop.too_far || bop.too_near);
 }
 
 TEST(Bop, FarDepthsAreStoredAsZeroWithAWarning) {
   const Scene scene = two_rectangles();
   const RenderedView view(scene, pinhole(), kBopSize);
   const BopAnnotations bop = bop_of(view, scene);  // 100000 steps
-  ASSERT_EQ(bop.warnings.size(), 1U);
-  EXPECT_THAT(bop.warnings[0].message,
+  EXPECT_FALSE(bop.too_near);
+  ASSERT_TRUE(bop.too_far);
+  EXPECT_THAT(bop.too_far->message,
               testing::HasSubstr("view 0 stores 48 depths beyond 65535 steps"));
   EXPECT_EQ(std::ranges::count(samples_of<std::uint16_t>(bytes_of(bop, "depth/000000.png")), 0),
             160);
   EXPECT_EQ(joined(BopFile::scene_gt_info, {bop.part})["0"][0]["px_count_valid"], 0);
+}
+
+TEST(Bop, FarAndNearDepthsAreBothNamed) {
+  Scene scene = two_rectangles();
+  scene.objects.push_back(rectangle("near", {-4e-5F, -3e-5F, 9.99995F}, 4e-5F, 6e-5F));
+  const RenderedView view(scene, pinhole(), kBopSize);
+  const BopAnnotations bop = bop_of(view, scene, {.depth_scale = 0.12});
+  ASSERT_TRUE(bop.too_far && bop.too_near);
+  EXPECT_THAT(bop.too_far->message, testing::HasSubstr("no depth scale suits"));
+  EXPECT_THAT(bop.too_near->message, testing::HasSubstr("below half a step"));
 }
 
 TEST(Bop, OtherCamerasAndScalesAreRefused) {

@@ -60,9 +60,9 @@ inline constexpr int kMaxDepth = 64;
 struct Tree {
   PageVector<WideNode> nodes;
   PageVector<TriangleBlock> blocks;  ///< triangles with every |coordinate| at most 2^38
-  std::vector<PrimitiveId> others;   ///< larger triangles, spheres, discs
-  /// Planes, quadrics, shapes beyond the float32 range, and primitives of scenes with so few of
-  /// them that testing each is faster.
+  std::vector<PrimitiveId> others;   ///< larger triangles, spheres, discs, ellipsoids
+  /// Planes, other quadrics, shapes beyond the float32 range, and primitives of scenes with so few
+  /// of them that testing each is faster.
   std::vector<PrimitiveId> unbounded;
   std::vector<std::shared_ptr<const OwnedMeshTree>> meshes;  ///< the trees of instances
   std::vector<MeshTree> views;                               ///< of `meshes`

@@ -200,7 +200,8 @@ void ViewRenderer::save_annotations(const DatasetView& view, const AnnotatedPict
   if (is_coco) formats.coco = arguments_.dataset.coco;
   if (is_bop) formats.bop_depth_scale = arguments_.dataset.depth_scale;
   const Annotations annotations = annotate(*prepared_, picture, formats, arguments_.threads);
-  for (const Diagnostic& warning : annotations.bop.warnings) warnings_.report_picture(warning);
+  warnings_.report_picture(annotations.bop.too_far, "far depths");
+  warnings_.report_picture(annotations.bop.too_near, "near depths");
   const auto save = [&](const std::string& name, const std::string& bytes) {
     write_dataset_file(folder / name, bytes);
     names.push_back(name);

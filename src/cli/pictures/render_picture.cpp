@@ -243,7 +243,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   const Scene& drawn = prepared.scene();
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
     warnings.report_picture(
-        picture_warning(view_of(film, prepared, camera, options), arguments, drawn));
+        picture_warning(view_of(film, prepared, camera, options), arguments, drawn), "content");
   watch.rendered(times);  // with the rays of the warning
   if (!arguments.sampling.shard) {
     const auto instants = options.shutter ? std::optional(options.shutter->times) : std::nullopt;

@@ -101,8 +101,8 @@ int Warnings::print_result(const std::string& scene) const {
   return errors_ == 0 ? 0 : static_cast<int>(ErrorKind::invalid_scene);
 }
 
-void Warnings::report_picture(const std::optional<Diagnostic>& warning) {
-  if (warning && !std::exchange(has_reported_picture_, true)) print(*warning);
+void Warnings::report_picture(const std::optional<Diagnostic>& warning, std::string_view kind) {
+  if (warning && kinds_of_pictures_.emplace(kind).second) print(*warning);
 }
 
 std::string lights_text(const Scene& scene) {

@@ -8,9 +8,11 @@
 #include <microtrace/scene.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace microtrace::cli {
@@ -29,9 +31,9 @@ class Warnings {
   /// With --strict, throws the first warning as an Error.
   void report(const std::vector<Diagnostic>& warnings);
 
-  /// Reports a warning about a picture in the same way. Of the warnings about the pictures of a
-  /// sequence or data set, prints only the first.
-  void report_picture(const std::optional<Diagnostic>& warning);
+  /// Reports a warning about a picture in the same way. Of the warnings of one kind about the
+  /// pictures of a sequence or data set, prints only the first.
+  void report_picture(const std::optional<Diagnostic>& warning, std::string_view kind);
 
   /// Prints the result of --validate and returns the exit code.
   [[nodiscard]] int print_result(const std::string& scene) const;
@@ -40,9 +42,10 @@ class Warnings {
   void print(const Diagnostic& warning) const;
 
   std::vector<Diagnostic>* collected_;
-  bool is_strict_, is_quiet_, is_validating_, has_reported_picture_ = false;
+  bool is_strict_, is_quiet_, is_validating_;
   std::size_t errors_ = 0;
   std::set<std::string> printed_;
+  std::set<std::string, std::less<>> kinds_of_pictures_;
 };
 
 /// Returns the warning for a picture in which no object is visible, or which is almost entirely

@@ -98,13 +98,13 @@ std::uint64_t valid_pixels(const Mask& mask, const std::vector<std::uint16_t>& d
 }
 
 /// Warns about depths that are stored as 0, if there are any.
-void warn(std::vector<Diagnostic>& warnings, std::uint32_t view, std::size_t count,
-          const char* place, const char* remedy) {
-  if (count == 0) return;
+std::optional<Diagnostic> warning_about(std::uint32_t view, std::size_t count, const char* place,
+                                        const char* remedy) {
+  if (count == 0) return std::nullopt;
   Diagnostic warning;
   warning.message = "view " + std::to_string(view) + " stores " + counted(count, "depth") + place +
-                    " as 0, and other views may, too; choose a " + remedy + " depth scale";
-  warnings.push_back(warning);
+                    " as 0, and other views may, too; " + remedy;
+  return warning;
 }
 
 bool is_scale(double x) {
@@ -166,8 +166,12 @@ BopAnnotations bop_view(const DrawnView& view, const BopFrames& frames, const Ma
   const CameraFrame frame(model);
   BopAnnotations result;
   const DepthSteps depth = depth_steps(view.depth, options);
-  warn(result.warnings, view.index, depth.too_far, " beyond 65535 steps", "larger");
-  warn(result.warnings, view.index, depth.too_near, " below half a step", "smaller");
+  const bool are_both = depth.too_far > 0 && depth.too_near > 0;
+  const char* const none = "no depth scale suits all depths of this view";
+  result.too_far = warning_about(view.index, depth.too_far, " beyond 65535 steps",
+                                 are_both ? none : "choose a larger depth scale");
+  result.too_near = warning_about(view.index, depth.too_near, " below half a step",
+                                  are_both ? none : "choose a smaller depth scale");
   const std::string number = six_digits(view.index);
   result.files.push_back(
       {.name = "depth/" + number + ".png", .bytes = io::encode_gray_png(view.size, depth.steps)});

@@ -108,7 +108,8 @@ Box box_of(const Quadric& q) {
       kError * (glm::dot(glm::abs(g), v_size) + 2 * std::abs(j) * product(size, glm::abs(first)).x);
   const double most = n + n_error;
   constexpr double kWide = 0x1p-20;  // greatest relative error
-  if (!(diagonal.x > 0 && own.z > 0 && det_error <= kWide * least && most >= 0)) return whole();
+  if (!(diagonal.x > 0 && own.z > 0 && least > 0 && det_error <= kWide * least && most >= 0))
+    return whole();
   const DVec3 center = -v / det;
   const DVec3 center_error = (kError * v_size + glm::abs(center) * det_error) / least;
   return extended(center, glm::sqrt(most) * glm::sqrt(own) * (1 + 0x1p-48) / least + center_error);
