@@ -3,7 +3,8 @@ without optimization draw it soon.
 
 materials.glb has 24 balls, one for each kind of scattering, before a checkered wall. textured.glb has a texture in every
 slot, masks and blending. lamps.glb is a room with 64 punctual lights and emissive meshes. moving.glb bends, morphs and
-rises at --time 0 to 1. media.glb has bodies that scatter light inside. far.glb stands where float32 has a number every half meter. ../sky.exr is an environment map.
+rises at --time 0 to 1. media.glb has bodies that scatter light inside. panes.glb
+has stained glass in front of the sun and a lamp. far.glb stands where float32 has a number every half meter. ../sky.exr is an environment map.
 """
 
 import math
@@ -365,6 +366,37 @@ def media():
     return asset
 
 
+def panes():
+    """Leaning panes of clear glass, one for each kind, whose colors the sun casts on a floor. Before the fifth, half-transparent
+    one is another, and the sixth is one-sided, as seen from behind."""
+    asset = Asset()
+    floor = material(asset, "floor", [0.7, 0.7, 0.7], roughness=0.8)
+    stand(asset, "floor", quad(asset, [(-3, 0, 2), (3, 0, 2), (3, 0, -2), (-3, 0, -2)]), floor)
+    clear = {"transmission": {"transmissionFactor": 1}}
+    kinds = [
+        ("red", [0.9, 0.1, 0.1], {}, {}),
+        ("frosted", [0.2, 0.8, 0.3], {"transmission": {"transmissionFactor": 0.5}}, {}),
+        ("coated", [0.2, 0.4, 0.9], {"clearcoat": {"clearcoatFactor": 0.8, "clearcoatRoughnessFactor": 0.2},
+                                     "sheen": {"sheenColorFactor": [0.3, 0.2, 0.1], "sheenRoughnessFactor": 0.5}}, {}),
+        ("soap", [1, 1, 1], {"iridescence": {"iridescenceFactor": 1}, "specular": {"specularColorFactor": [1, 0.8, 0.6]}}, {}),
+        ("veil", [0.9, 0.8, 0.1], {}, {"alphaMode": "BLEND", "alpha": 0.6}),
+        ("back", [0.8, 0.2, 0.8], {}, {"doubleSided": False}),
+    ]
+    looks = [material(asset, name, color, roughness=0, extensions={**clear, **extensions}, **{"doubleSided": True, **members})
+             for name, color, extensions, members in kinds]
+    corners = [(-0.4, 0.1, 0), (0.4, 0.1, 0), (0.4, 1.3, -0.5), (-0.4, 1.3, -0.5)]
+    for i, look in enumerate([*looks, looks[0]]):
+        place = [i - 2.5, 0, 0] if i < 6 else [1.7, 0.2, 0.4]
+        pane = quad(asset, corners if i != 5 else corners[::-1])
+        stand(asset, f"pane {i}", pane, look, translation=place)
+    lamp = material(asset, "lamp", [0, 0, 0], emissiveFactor=[1, 0.9, 0.7], doubleSided=True,
+                    extensions={"emissive_strength": {"emissiveStrength": 20}})
+    stand(asset, "lamp", quad(asset, [(-2.6, 0.8, -1.5), (-2.3, 0.8, -1.5), (-2.3, 1.1, -1.5), (-2.6, 1.1, -1.5)]), lamp)
+    light(asset, "Sun", "directional", [1, 0.95, 0.9], 3, {"rotation": unit((-0.2, 0.9, 0.15, 0.1))})
+    camera(asset, [0, 1.6, 4.2], tilt=-0.25)
+    return asset
+
+
 def far():
     """Some balls on the Earth's surface, in meters from its center."""
     asset = Asset()
@@ -424,4 +456,4 @@ def sky():
     return exr(32, 16, pixel)
 
 
-SCENES = {"materials": materials, "textured": textured, "lamps": lamps, "moving": moving, "media": media, "far": far}
+SCENES = {"materials": materials, "textured": textured, "lamps": lamps, "moving": moving, "media": media, "panes": panes, "far": far}

@@ -112,7 +112,7 @@ class Instances(ProgramTest):
 
     def test_path(self):
         for name, options in (("materials.glb", ["--env", "studio"]), ("textured.glb", []), ("lamps.glb", []),
-                              ("media.glb", []), ("far.glb", []), ("moving.glb", ["--time", "0.7"]),
+                              ("media.glb", []), ("panes.glb", []), ("far.glb", []), ("moving.glb", ["--time", "0.7"]),
                               ("materials.glb", ["--guiding", "--env", "studio", "--threads", "2"]),
                               ("textured.glb", ["--bsdf", "spec", "--ground"])):
             self.assert_same(name, *LIT, *options)
