@@ -6,6 +6,7 @@
 #include "fields.hpp"
 #include "images.hpp"
 #include "member_names.hpp"
+#include "scene/validate/check_indices.hpp"
 #include "scene/validate/validate.hpp"
 #include "values.hpp"
 
@@ -387,10 +388,11 @@ Camera camera_from_python(const nb::handle& camera) {
 }
 
 std::optional<Environment> environment_from_python(const nb::handle& environment) {
-  Scene scene;
-  scene.environment = Reader(environment).environment_of(environment);
-  validate(scene);
-  return scene.environment;
+  std::optional<Environment> result = Reader(environment).environment_of(environment);
+  if (!result) return result;
+  const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&result->content);
+  check_environment(*result, map != nullptr ? map->get() : nullptr);  // a SharedMap is valid
+  return result;
 }
 
 }  // namespace microtrace::python

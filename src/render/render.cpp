@@ -114,7 +114,6 @@ void check(const RenderOptions& options) {
                      std::to_string(options.samples));
   }
   if (options.shutter) check(*options.shutter, options);
-  if (options.environment) check_environment(*options.environment);
   const auto require_once = [&](auto aovs) {
     std::ranges::sort(aovs);
     if (const auto twice = std::ranges::adjacent_find(aovs); twice != aovs.end())
@@ -183,6 +182,7 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
           ImageSize size, const RenderOptions& options) {
   check(camera, size);
   check(options);
+  if (options.environment) check_environment(*options.environment, content->tables()->map().get());
   const PixelRect window = window_of(size, options.crop);
   Threads threads{.wanted = thread_count(options.threads), .run = options.run_threads};
   const auto start = Clock::now();

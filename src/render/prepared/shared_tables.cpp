@@ -29,4 +29,9 @@ std::shared_ptr<const MapTables> SharedTables::of(const Environment& environment
   return environment_;
 }
 
+std::shared_ptr<const RadianceMap> SharedTables::map() const {
+  const std::scoped_lock lock(mutex_);
+  return environment_ ? environment_->map : nullptr;
+}
+
 }  // namespace microtrace

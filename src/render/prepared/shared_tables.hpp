@@ -29,6 +29,8 @@ class SharedTables {
 
   /// The sampling tables of an environment; null for a uniform environment.
   [[nodiscard]] std::shared_ptr<const MapTables> of(const Environment& environment);
+  /// The last map for which tables were made; null if there was none.
+  [[nodiscard]] std::shared_ptr<const RadianceMap> map() const;
 
  private:
   SharedTextures textures_;

@@ -7,7 +7,9 @@ namespace microtrace {
 /// undefined behavior. Throws Error (invalid_scene).
 void check_indices(const Scene& scene);
 
-/// Checks all rules of an environment, as validate() does. Throws Error (invalid_scene).
-void check_environment(const Environment& environment);
+/// Checks all rules of an environment, as validate() does, except for the pixels of a map that is
+/// known to be valid. To check those of a large map takes longer than to render a small picture.
+/// Throws Error (invalid_scene).
+void check_environment(const Environment& environment, const RadianceMap* valid_map = nullptr);
 
 }  // namespace microtrace

@@ -1,5 +1,6 @@
 #include "scene/validate/numbers.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <variant>
 
@@ -16,10 +17,13 @@ Rule check_radiance(const char* field, const Vec3& radiance) {
 Rule check_pixels(const Environment& environment) {
   const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
   if (map == nullptr) return {};
-  for (const Vec3& pixel : (*map)->pixels) {
-    if (Rule rule = check_radiance("content", pixel)) return rule;
-  }
-  return {};
+  const auto is_valid = [](const Vec3& p) {
+    const auto is_in_range = [](float x) { return 0 <= x && x <= kMaxRadiance; };
+    return is_in_range(p.x) && is_in_range(p.y) && is_in_range(p.z);
+  };
+  const auto& pixels = (*map)->pixels;
+  const auto broken = std::find_if_not(pixels.begin(), pixels.end(), is_valid);
+  return broken == pixels.end() ? Rule{} : check_radiance("content", *broken);
 }
 
 }  // namespace

@@ -139,7 +139,13 @@ void validate(const Scene& scene) {
   if (scene.environment) check_environment(*scene.environment);
 }
 
-void check_environment(const Environment& environment) {
+void check_environment(const Environment& environment, const RadianceMap* valid_map) {
+  const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
+  if (map != nullptr && *map != nullptr && map->get() == valid_map) {
+    Environment without_map = environment;
+    without_map.content = Vec3(0);
+    return check_environment(without_map);
+  }
   check_map(environment);
   if (const auto broken = validate(environment)) refuse("/environment", *broken);
 }

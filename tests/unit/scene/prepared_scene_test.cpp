@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -218,6 +219,29 @@ TEST(PreparedScene, TakesAnotherEnvironment) {
     expect_same(render(prepared, camera, kPreparedSize, options),
                 render(scene, camera, kPreparedSize, lit(path)));
   }
+}
+
+// The pixels of a map are checked only once.
+TEST(PreparedScene, ChecksEnvironmentsWhoseMapItKnows) {
+  const Scene scene = furnished();
+  const PreparedScene prepared(scene);
+  const PathIntegrator path({.max_depth = 3});
+  const auto map_of = [](float second) {
+    return std::make_shared<const RadianceMap>(
+        RadianceMap{.width = 2, .height = 1, .pixels = {Vec3(1), Vec3(second)}});
+  };
+  const auto draw = [&](const Environment& environment) {
+    RenderOptions options = lit(path);
+    options.environment = environment;
+    return render(prepared, views_of(scene)[0], kPreparedSize, options);
+  };
+  const Environment valid{.content = map_of(2)};
+  Environment turned = valid;
+  turned.rotation = std::numeric_limits<double>::quiet_NaN();
+  const Film first = draw(valid);
+  EXPECT_THROW((void)draw(turned), Error);
+  EXPECT_THROW((void)draw({.content = map_of(-1)}), Error);
+  expect_same(draw(valid), first);
 }
 
 TEST(PreparedScene, MayBeSharedByThreads) {
