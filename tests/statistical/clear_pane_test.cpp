@@ -194,6 +194,45 @@ TEST(ClearPanes, ReflectAndScatterTheRest) {
   }
 }
 
+// White glass whose normal texture tilts it under a coat that keeps the geometric normal. Where the
+// glass leans away from the camera, the coat absorbs light that the glass reflects at grazing
+// angles.
+TEST(ClearPanes, GainNoEnergyUnderCoats) {
+  const auto light = [](double elevation, double tilt) {
+    Scene scene;
+    const auto channel = [](double x) {
+      return static_cast<std::uint8_t>(127.5 + 127.5 * x + 0.5);
+    };
+    scene.images.push_back(std::make_shared<const Image>(
+        Image{.width = 1,
+              .height = 1,
+              .channels = 3,
+              .samples = std::vector<std::uint8_t>{channel(std::sin(tilt)), channel(0),
+                                                   channel(std::cos(tilt))}}));
+    scene.textures.push_back({.image = 0});
+    Material material = glass(Vec3(1));
+    material.ior = 1;
+    material.normal_texture = TextureUse{};
+    material.clearcoat = Clearcoat{.factor = 1};
+    scene.materials = {material};
+    Mesh pane = parallelogram({-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
+    pane.uv_sets = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    pane.normals.assign(4, Vec3(0, 1, 0));
+    pane.tangents.assign(4, Vec4(1, 0, 0, 1));
+    scene.objects.push_back({.shape = pane, .material = 0});
+    scene.environment = Environment{.content = Vec3(1)};
+    const DVec3 direction(-std::cos(elevation), -std::sin(elevation), 0);
+    const OrthographicCamera camera{
+        .pose = {.position = -direction, .direction = direction, .up = {0, 0, 1}}, .height = 0.1};
+    return mean_of(shoot(scene, camera, {.size = {.width = 8, .height = 8}, .samples = 256})).y;
+  };
+  for (const double elevation : {0.26, 0.5, 1.0}) {
+    EXPECT_NEAR(light(elevation, 0.1), 1, 0.01) << elevation;
+    EXPECT_LT(light(elevation, -0.17), 1.001) << elevation;
+    EXPECT_GT(light(elevation, -0.17), elevation < 0.5 ? 0.6 : 0.94) << elevation;
+  }
+}
+
 // An invisible pane must not change how bodies around it scatter and absorb light.
 TEST(ClearPanes, AreInvisibleInMedia) {
   const Material clear = clear_body(Vec3(0.6F));

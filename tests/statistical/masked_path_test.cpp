@@ -296,5 +296,27 @@ TEST(MaskedPaths, PassBlendedSurfacesTogetherAsOneByOne) {
   }
 }
 
+// The two sides of one-sided glass transmit different parts of the light, and alpha still counts.
+TEST(MaskedPaths, PassOneSidedGlassByItsAlpha) {
+  Scene scene;
+  Material material{.base_color = {0, 0, 0, 0.25F},
+                    .alpha_mode = AlphaMode::blend,
+                    .double_sided = false,
+                    .roughness = 0.5F};
+  material.transmission = Transmission{.factor = 1};
+  material.specular = Specular{.factor = 0};
+  scene.materials = {material};
+  scene.objects.push_back(
+      {.shape = parallelogram({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), .material = 0});
+  scene.objects.push_back(
+      {.shape = parallelogram({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}), .material = 1});
+  scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = Vec3(1)});
+  scene.environment = Environment{.content = Vec3(0)};
+  const OrthographicCamera camera{
+      .pose = {.position = {0, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, 1}}, .height = 0.1};
+  const Shot shot{.size = {.width = 8, .height = 8}, .samples = 256};
+  EXPECT_NEAR(mean_of(shoot(scene, camera, shot)).y, 0.75, 0.01);
+}
+
 }  // namespace
 }  // namespace microtrace

@@ -6,37 +6,39 @@
 #include "render/shading/shading.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-
-#include <glm/geometric.hpp>
 
 namespace microtrace {
 
-Vec3 Shading::normal(const ShadingPoint& point, const Vec3& d) {
-  const TextureSlot& slot = (*point.look)[MaterialTexture::normal];
+Vec3 Shading::normal(const ShadingPoint& point, const Vec3& d, MaterialTexture texture,
+                     float scale) {
+  const TextureSlot& slot = (*point.look)[texture];
   const float side = point.at.front ? 1.0F : -1.0F;
   Vec3 n = point.at.ns;
   if (slot.map != nullptr) {
     const Vec4 tangent = point.at.tangent();
-    n = mapped_normal<1>(n, {Vec3(tangent), tangent.w}, Vec3(slot.at(point)),
-                         point.look->material->normal_scale);
+    n = mapped_normal<1>(n, {Vec3(tangent), tangent.w}, Vec3(slot.at(point)), scale);
   }
   return usable_normal<1>(side * n, side * point.at.n, -d);
+}
+
+Vec3 Shading::normal(const ShadingPoint& point, const Vec3& d) {
+  return normal(point, d, MaterialTexture::normal, point.look->material->normal_scale);
 }
 
 Vec3 Shading::crossing_light(const ShadingPoint& point, const Vec3& d, BsdfModel model) const {
   std::optional<BsdfInput> varying;
   const BsdfInput& input = bsdf_input(point, 3, nullptr, varying);
-  // In local coordinates, because a smooth surface without anisotropy looks the same all around.
   const Vec3 wi = unit<1>(d);
-  const float cosine = std::clamp(-glm::dot(wi, normal(point, wi)), bsdf::kGrazingCosine, 1.0F);
-  const Vec3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
+  const auto frame = bsdf::Frame<1>::about(normal(point, wi));
+  Vec3 wo = frame.to_local(-wi);
+  wo.z = std::max(wo.z, bsdf::kGrazingCosine);
   SurfaceLanes lanes{};
   bsdf::put_surface(lanes, 0, input.parameters);
   bsdf::put_extensions(lanes, 0, input.parameters, input.layers);
-  const auto frame = bsdf::Frame<1>::about({0, 0, 1});
-  put(lanes.coat_normal, 0, frame.n);
+  const auto& coat = point.look->material->clearcoat;
+  put(lanes.coat_normal, 0,
+      coat ? normal(point, wi, MaterialTexture::clearcoat_normal, coat->normal_scale) : frame.n);
   const auto surface = bsdf::Surface<1>::extended(lanes, 0, frame);
   bsdf::Features features = input.features;
   features.is_spec = model == BsdfModel::spec;

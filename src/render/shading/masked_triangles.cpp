@@ -21,12 +21,14 @@ void Shading::find_masked() {
     if (entry.mesh == nullptr || is_solid || encloses_medium(material)) continue;
     const bool blended = blends(looks_[entry.look]);
     has_blended_ |= blended;
+    // Queries for paths pass all of them, those for light only those whose sides are alike.
+    const bool is_blend = blended || material.alpha_mode == AlphaMode::blend;
     for_each_mesh(run, [&](const PlacedMesh& mesh, PrimitiveId first_id) {
       std::size_t& first_map = entry.first_map_of(mesh);
       if (first_map == kNoMap) first_map = opacity_.add(mesh, looks_[entry.look]);
       for (std::size_t i = 0; i < mesh.arrays->triangles.size(); ++i) {
         const PrimitiveId id = first_id + static_cast<PrimitiveId>(i);
-        if (blended || opacity_.everywhere(first_map + i) != Opacity::visible)
+        if (is_blend || opacity_.everywhere(first_map + i) != Opacity::visible)
           masked_.insert(id, id + 1);
       }
     });

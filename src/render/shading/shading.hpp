@@ -118,7 +118,8 @@ class Shading {
   /// line. The ray must not be a camera ray.
   [[nodiscard]] Vec3 transmittance(const ShadingPoint& point, const Vec3& d, BsdfModel model) const;
 
-  /// The triangles on which is_transparent() may be true, and all for which is_blended() is.
+  /// The triangles on which is_transparent() may be true, and all that have alphaMode BLEND or are
+  /// clear. Those that enclose a medium are left out.
   [[nodiscard]] BitPages masked() const { return masked_.pages(); }
   [[nodiscard]] bool is_masked(PrimitiveId id) const { return is_in(masked(), id); }
   /// Whether one of these triangles has opacity at these weights, if that is known.
@@ -229,6 +230,8 @@ class Shading {
     if (look.is_clear) return !look.has_open_opaque_parts;
     return look.depends_on_alpha && look.material->alpha_mode == AlphaMode::blend;
   }
+  [[nodiscard]] static Vec3 normal(const ShadingPoint& point, const Vec3& d,
+                                   MaterialTexture texture, float scale);
   struct MaskedHit;
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
   /// True if the surface transmits no light at the point, or only diffusely, because it has no

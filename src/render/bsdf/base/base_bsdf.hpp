@@ -53,9 +53,7 @@ class BaseBsdf {
 
   /// The fraction of light that crosses a thin wall toward wo in a straight line if the wall is
   /// smooth.
-  [[nodiscard]] V crossing_light() const {
-    return shares(wo_.z).entering * transmittance(coating_below(), wo_);
-  }
+  [[nodiscard]] V crossing_light() const { return shares(wo_.z).entering * transmittance_; }
 
   /// The unit half vector of wo and wi. A wi below the surface is first mirrored to the upper side.
   [[nodiscard]] V half_vector(const V& wi) const {

@@ -74,7 +74,7 @@ void Wave::weaken(std::size_t i, const Vec3& light) {
 
 bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t& passed) {
   // The others find reflected light, whose factor this limits.
-  constexpr float kMostCrossing = 0.98F;
+  constexpr float kMostCrossing = 0.999F;
   const bool from_camera = paths_->pdf[i] == 0;
   const TexturedMaterial& look = *point.look;
   if (!from_camera && look.is_opaque) return true;
