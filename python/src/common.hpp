@@ -76,8 +76,10 @@ class Caller {
 
     void run();
   };
-  /// Runs an errand on this thread.
-  [[nodiscard]] bool run_here(Errand& errand);
+  /// Runs an errand, unless it is null, and checks for signals, if the call isn't canceled.
+  /// with_lock(f) must call f() with the interpreter's lock.
+  template <class WithLock>
+  void serve(Errand* errand, const WithLock& with_lock);
 
   friend void run_interruptible(const std::function<void(Caller&)>& f);
   /// Waits for end(). Runs errands, and checks for signals in between.

@@ -173,21 +173,28 @@ void Caller::Errand::run() {
   is_done = true;
 }
 
-bool Caller::run_here(Errand& errand) {
+template <class WithLock>
+void Caller::serve(Errand* errand, const WithLock& with_lock) {
   if (calls.is_canceled()) is_canceled_ = is_exiting_ = true;
-  if (is_canceled_) return false;
-  PyGILState_STATE state{};
-  stay_alive([&] { state = PyGILState_Ensure(); });
-  errand.run();
-  // Only the main thread handles signals.
-  if (PyErr_CheckSignals() != 0) is_interrupted_ = is_canceled_ = true;
-  PyGILState_Release(state);
-  return true;
+  if (is_canceled_) return;
+  with_lock([&] {
+    if (errand != nullptr) errand->run();
+    // Only the main thread handles signals.
+    if (PyErr_CheckSignals() != 0) is_interrupted_ = is_canceled_ = true;
+  });
 }
 
 bool Caller::call(const nb::object& f, double number, const std::function<void(PyObject*)>& use) {
   Errand errand{.f = f, .number = number, .use = use};
-  if (!waits_) return run_here(errand);
+  if (!waits_) {
+    serve(&errand, [](const auto& run) {
+      PyGILState_STATE state{};
+      stay_alive([&] { state = PyGILState_Ensure(); });
+      run();
+      PyGILState_Release(state);
+    });
+    return errand.is_done;
+  }
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return errand_ == nullptr; });
   errand_ = &errand;
@@ -203,14 +210,7 @@ void Caller::wait(Unlocked& unlocked) {
     if (is_done_) return;
     Errand* const errand = errand_;
     lock.unlock();
-    if (calls.is_canceled()) is_canceled_ = is_exiting_ = true;
-    if (!is_canceled_) {
-      unlocked.with_lock([&] {
-        if (errand != nullptr) errand->run();
-        is_interrupted_ = PyErr_CheckSignals() != 0;
-      });
-      if (is_interrupted_) is_canceled_ = true;
-    }
+    serve(errand, [&](const auto& run) { unlocked.with_lock(run); });
     lock.lock();
     if (errand == nullptr) continue;
     errand_ = nullptr;

@@ -38,16 +38,19 @@ double transmitted(double cosine) {
   return 0.96 * (1 - std::pow(1 - cosine, 5));
 }
 
+/// A horizontal sheet that faces up.
+Mesh sheet(float height) {
+  return parallelogram({-900, height, 900}, {1800, 0, 0}, {0, 0, -1800});
+}
+
 /// A matte gray floor around the origin under horizontal panes at these heights.
 Scene floor_under(const std::vector<std::pair<float, Material>>& panes) {
   Scene scene;
   scene.materials = {{.base_color = {0.5F, 0.5F, 0.5F, 1}, .specular = Specular{.factor = 0}}};
-  scene.objects.push_back(
-      {.shape = parallelogram({-900, 0, 900}, {1800, 0, 0}, {0, 0, -1800}), .material = 0});
+  scene.objects.push_back({.shape = sheet(0), .material = 0});
   for (const auto& [height, material] : panes) {
     scene.objects.push_back(
-        {.shape = parallelogram({-900, height, 900}, {1800, 0, 0}, {0, 0, -1800}),
-         .material = static_cast<std::uint32_t>(scene.materials.size())});
+        {.shape = sheet(height), .material = static_cast<std::uint32_t>(scene.materials.size())});
     scene.materials.push_back(material);
   }
   scene.environment = Environment{.content = Vec3(0)};
@@ -127,7 +130,7 @@ constexpr std::array kLights{
 /// The shapes of a pane that covers the floor. All but the first are not meshes, so that no query
 /// passes them.
 std::vector<std::pair<std::string, std::vector<Shape>>> panes() {
-  return {{"mesh", {parallelogram({-900, 2, 900}, {1800, 0, 0}, {0, 0, -1800})}},
+  return {{"mesh", {sheet(2)}},
           {"plane", {Plane{.point = {0, 2, 0}, .normal = {0, 1, 0}}}},
           {"triangles",
            {Triangle{{-900, 2, 900}, {900, 2, 900}, {900, 2, -900}},
@@ -171,7 +174,7 @@ TEST(ClearPanes, ShowWhatIsBehind) {
                      {.integrator = &path, .samples = shot.samples, .transparent = true});
   EXPECT_EQ(film.alpha_at(3, 4), 1);
   const DVec3 sky = mean_of(film);
-  add_lamp(scene, parallelogram({-900, 0, 900}, {1800, 0, 0}, {0, 0, -1800}));
+  add_lamp(scene, sheet(0));
   const DVec3 lamp = mean_of(shoot(scene, looking_down_from(2), shot));
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(sky[c] / (2 * double{kAmber[c]}), 1, 0.01);

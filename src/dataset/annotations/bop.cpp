@@ -97,7 +97,7 @@ std::uint64_t valid_pixels(const Mask& mask, const std::vector<std::uint16_t>& d
   return count;
 }
 
-/// Warns about depths that are stored as 0, if there are any.
+/// The warning about depths that are stored as 0, if there are any.
 std::optional<Diagnostic> warning_about(std::uint32_t view, std::size_t count, const char* place,
                                         const char* remedy) {
   if (count == 0) return std::nullopt;

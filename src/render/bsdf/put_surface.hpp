@@ -1,8 +1,9 @@
 #pragma once
-/// Stores the parameters of one surface in lanes. The kernels' own translation units must not
-/// include this header.
+/// Stores the parameters of one surface in lanes, or returns the surface. The kernels' own
+/// translation units must not include this header.
 
 #include "render/bsdf/parameters.hpp"
+#include "render/bsdf/surface.hpp"
 #include "render/lanes/lane_access.hpp"
 #include "render/lanes/surface_lanes.hpp"
 
@@ -34,6 +35,17 @@ inline void put_extensions(SurfaceLanes& lanes, int lane, const Parameters& p,
   lanes.sheen_roughness[lane] = layers.sheen_roughness;
   lanes.coat[lane] = layers.coat;
   lanes.coat_roughness[lane] = layers.coat_roughness;
+}
+
+/// Returns the surface with these parameters in the local coordinates of the frame. The coat's
+/// normal is in the coordinates in which the frame is given.
+inline Surface<1> surface_of(const Parameters& p, const Layers& layers, const Vec3& coat_normal,
+                             const Frame<1>& frame) {
+  SurfaceLanes lanes{};
+  put_surface(lanes, 0, p);
+  put_extensions(lanes, 0, p, layers);
+  put(lanes.coat_normal, 0, coat_normal);
+  return Surface<1>::extended(lanes, 0, frame);
 }
 
 }  // namespace microtrace::bsdf

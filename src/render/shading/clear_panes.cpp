@@ -33,13 +33,11 @@ Vec3 Shading::crossing_light(const ShadingPoint& point, const Vec3& d, BsdfModel
   const auto frame = bsdf::Frame<1>::about(normal(point, wi));
   Vec3 wo = frame.to_local(-wi);
   wo.z = std::max(wo.z, bsdf::kGrazingCosine);
-  SurfaceLanes lanes{};
-  bsdf::put_surface(lanes, 0, input.parameters);
-  bsdf::put_extensions(lanes, 0, input.parameters, input.layers);
   const auto& coat = point.look->material->clearcoat;
-  put(lanes.coat_normal, 0,
-      coat ? normal(point, wi, MaterialTexture::clearcoat_normal, coat->normal_scale) : frame.n);
-  const auto surface = bsdf::Surface<1>::extended(lanes, 0, frame);
+  const Vec3 coat_normal =
+      coat ? normal(point, wi, MaterialTexture::clearcoat_normal, coat->normal_scale) : frame.n;
+  const bsdf::Surface<1> surface =
+      bsdf::surface_of(input.parameters, input.layers, coat_normal, frame);
   bsdf::Features features = input.features;
   features.is_spec = model == BsdfModel::spec;
   std::optional<bsdf::Coating<1>> coating;

@@ -17,18 +17,18 @@ void Shading::find_masked() {
     Entry& entry = entries_[run];
     const Material& material = *looks_[entry.look].material;
     // Bodies that enclose a medium may hide each other's surfaces, so each hit matters.
-    const bool is_solid = material.alpha_mode == AlphaMode::opaque && !looks_[entry.look].is_clear;
+    const TexturedMaterial& look = looks_[entry.look];
+    const bool is_solid = material.alpha_mode == AlphaMode::opaque && !look.is_clear;
     if (entry.mesh == nullptr || is_solid || encloses_medium(material)) continue;
-    const bool blended = blends(looks_[entry.look]);
-    has_blended_ |= blended;
-    // Queries for paths pass all of them, those for light only those whose sides are alike.
-    const bool is_blend = blended || material.alpha_mode == AlphaMode::blend;
+    has_blended_ |= blends(look);
+    // Queries for paths pass all of these, those for light only those that blend.
+    const bool is_partial = look.is_clear || material.alpha_mode == AlphaMode::blend;
     for_each_mesh(run, [&](const PlacedMesh& mesh, PrimitiveId first_id) {
       std::size_t& first_map = entry.first_map_of(mesh);
-      if (first_map == kNoMap) first_map = opacity_.add(mesh, looks_[entry.look]);
+      if (first_map == kNoMap) first_map = opacity_.add(mesh, look);
       for (std::size_t i = 0; i < mesh.arrays->triangles.size(); ++i) {
         const PrimitiveId id = first_id + static_cast<PrimitiveId>(i);
-        if (is_blend || opacity_.everywhere(first_map + i) != Opacity::visible)
+        if (is_partial || opacity_.everywhere(first_map + i) != Opacity::visible)
           masked_.insert(id, id + 1);
       }
     });

@@ -15,11 +15,7 @@ namespace microtrace::bsdf {
 /// Returns the surface with these parameters, in local shading coordinates.
 inline Surface<1> surface_of(const Parameters& parameters, const Layers& layers = {},
                              const Vec3& coat_normal = {0, 0, 1}) {
-  SurfaceLanes lanes{};
-  put_surface(lanes, 0, parameters);
-  put_extensions(lanes, 0, parameters, layers);
-  put(lanes.coat_normal, 0, coat_normal);
-  return Surface<1>::extended(lanes, 0, Frame<1>::about({0, 0, 1}));
+  return surface_of(parameters, layers, coat_normal, Frame<1>::about({0, 0, 1}));
 }
 
 struct DirectionSample {

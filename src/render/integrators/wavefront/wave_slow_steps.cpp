@@ -33,10 +33,13 @@ bool Wave::step_slowly(std::size_t first, int lane) {
   std::uint32_t passed = passed_;
   bool is_nearest = true;
   crossed_.clear();
+  const auto weaken_by_glass = [&] {
+    for (const Crossed& crossed : crossed_) weaken(i, crossed.light);
+  };
   while (hit && (passes_hidden_surface(i, point) || !stops(i, point, passed))) {
     if (from_camera && !crossed_.empty()) alphas_[paths.slot[i]] = 1;
     if (is_nearest && passed > passed_ && may_continue_later(i)) {
-      for (const Crossed& crossed : crossed_) weaken(i, crossed.light);
+      weaken_by_glass();
       continue_later(i);
       return true;
     }
@@ -46,7 +49,7 @@ bool Wave::step_slowly(std::size_t first, int lane) {
   if (paths.media[i] != 0) {
     if (!cross_medium(i, ray, hit, point.at.distance)) return true;
   } else {
-    for (const Crossed& crossed : crossed_) weaken(i, crossed.light);
+    weaken_by_glass();
   }
   if (!hit) return false;
   if (looks_behind() && Shading::lets_light_in(point) &&
@@ -73,7 +76,7 @@ void Wave::weaken(std::size_t i, const Vec3& light) {
 }
 
 bool Wave::stops(std::size_t i, const ShadingPoint& point, std::uint32_t& passed) {
-  // The others find reflected light, whose factor this limits.
+  // The other paths find the reflected light. Their number limits its factor.
   constexpr float kMostCrossing = 0.999F;
   const bool from_camera = paths_->pdf[i] == 0;
   const TexturedMaterial& look = *point.look;
